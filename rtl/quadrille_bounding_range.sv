@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after load_i. They mean
-// nothing when there is no pixel (range_empty).
+// First tile and tile count of a quad along one axis, from its least and greatest coordinate: there the clock after
+// load_i. They mean nothing when there is no pixel (range_empty).
 //
-// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels.
-// Homogeneous quad: lo = 0, hi = scissor1 - 1.
+// Ordinary quad: lo = max(ceil(low), scissor0), hi = min(floor(high), scissor1 - 1), in pixels. Homogeneous quad: lo =
+// 0, hi = scissor1 - 1.
 module quadrille_bounding_range #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
+    localparam int T = quadrille_pkg::T_BITS, V = quadrille_pkg::VIEWPORT_BITS, TC = quadrille_pkg::TC_BITS,
     localparam int TL = quadrille_pkg::TILE_LOG2
 ) (
-    input logic clk_i,
-    input logic load_i,
-    input logic [T-1:0] low_i,
-    input logic [T-1:0] high_i,
+    input logic clk_i, load_i,
+    input logic [T-1:0] low_i, high_i,
     input logic ordinary_i,
-    input logic [V:0] scissor0_i,
-    input logic [V:0] scissor1_i,
-    output logic [TC-1:0] first_o,
-    output logic [TC-1:0] count_o,
+    input logic [V:0] scissor0_i, scissor1_i,
+    output logic [TC-1:0] first_o, count_o,
     output logic [TL-1:0] last_o  // last pixel, in its tile
 );
   localparam int FRAC = quadrille_pkg::FRAC;
   localparam int IW = T - FRAC;  // whole pixels, signed; two bits more than a guard band position
 
   logic [T-1:0] low_up;
-  logic [IW-1:0] low_px, high_px;
-  logic [IW-1:0] begin_px, last_px;
-  logic [IW-1:0] lo_q, hi_q;
+  logic [IW-1:0] low_px, high_px, begin_px, last_px, lo_q, hi_q;
   logic low_inside, high_inside;
 
   assign low_up = low_i + T'((1 << FRAC) - 1);

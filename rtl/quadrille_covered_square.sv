@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether an ordinary quad covers all of a square of pixels, from the signs that its edge functions take there (as in tile_walk: 01 12 23 30,
-// and the diagonal 20 as 4). Combinational. Conservative: expression (12) with either sign where the diagonal has both.
+// Whether an ordinary quad covers all of a square of pixels, from the signs that its edge functions take there (as in
+// tile_walk: 01 12 23 30, and the diagonal 20 as 4). Combinational. Conservative: expression (12) with either sign
+// where the diagonal has both.
 module quadrille_covered_square (
     input logic [1:0] cull_i,
-    input logic [4:0] some_pos_i,
-    input logic [4:0] some_neg_i,
+    input logic [4:0] some_pos_i, some_neg_i,
     output logic covered_o
 );
   logic [4:0] all_pos, all_neg;

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the denominators N = |r_j k_i + r_i k_j| of a pixel on two edges (i, j) are made of: two products each. Combinational.
+// What the denominators N = |r_j k_i + r_i k_j| of a pixel on two edges (i, j) are made of: two products each.
+// Combinational.
 //
-// Of edge CLASS_FIRST the products 0 (r_j k_i) and 1 (r_i k_j), of edge CLASS_SECOND the products 2 and 3; neg_o has the sign of k. Numbers
-// are {exp, sig}.
+// Of edge CLASS_FIRST the products 0 (r_j k_i) and 1 (r_i k_j), of edge CLASS_SECOND the products 2 and 3; neg_o has
+// the sign of k. Numbers are {exp, sig}.
 module quadrille_denominator_operands #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int CLASS = quadrille_pkg::CLASS_BITS,
-    localparam int F = E + S
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int CLASS = quadrille_pkg::CLASS_BITS, F = E + S
 ) (
     input logic [CLASS-1:0] class_i,
     input logic [4*F-1:0] root_i,
     input logic [3:0] k_neg_i,
     input logic [4*PE-1:0] k_exp_i,
     input logic [4*S-1:0] k_sig_i,
-    output logic [4*F-1:0] root_o,
-    output logic [4*F-1:0] k_o,
+    output logic [4*F-1:0] root_o, k_o,
     output logic [3:0] neg_o
 );
   logic [1:0] first, second, after_first, after_second;
@@ -33,21 +30,9 @@ module quadrille_denominator_operands #(
   for (genvar g = 0; g < 4; g++) begin : gen_product
     assign k[g*F+:F] = {E'($signed(k_exp_i[g*PE+:PE])), k_sig_i[g*S+:S]};
 
-    quadrille_one_of_four #(.WIDTH(F)) u_root (
-        .words_i(root_i),
-        .index_i(root_index[2*g+:2]),
-        .word_o(root_o[g*F+:F])
-    );
-    quadrille_one_of_four #(.WIDTH(F)) u_k (
-        .words_i(k),
-        .index_i(k_index[2*g+:2]),
-        .word_o(k_o[g*F+:F])
-    );
-    quadrille_one_of_four #(.WIDTH(1)) u_neg (
-        .words_i(k_neg_i),
-        .index_i(k_index[2*g+:2]),
-        .word_o(neg_o[g])
-    );
+    quadrille_one_of_four #(.WIDTH(F)) u_root (.words_i(root_i), .index_i(root_index[2*g+:2]), .word_o(root_o[g*F+:F]));
+    quadrille_one_of_four #(.WIDTH(F)) u_k (.words_i(k), .index_i(k_index[2*g+:2]), .word_o(k_o[g*F+:F]));
+    quadrille_one_of_four #(.WIDTH(1)) u_neg (.words_i(k_neg_i), .index_i(k_index[2*g+:2]), .word_o(neg_o[g]));
   end
 
   logic unused;

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the depths of a quad's fragments lie, for hidden tiles: the codes of its corners with H = HIERARCHICAL_Z_BITS fraction bits, the nearest one
-// rounded down, the farthest one up. There from the second clock after the fourth beat's until the second after the next quad's first beat's.
+// Where the depths of a quad's fragments lie, for hidden tiles: the codes of its corners with H = HIERARCHICAL_Z_BITS
+// fraction bits, the nearest one rounded down, the farthest one up. There from the second clock after the fourth beat's
+// until the second after the next quad's first beat's.
 //
-// far_o all ones says nothing, as that of a quad with a vertex that is not before the eye. lowers_o: a pixel that the quad covers surely is a
-// fragment with such a depth; for that its corners must lie inside [znear, zfar], and D and r^2 of an ordinary quad be exact, so that no sum
-// of weights is 0.
+// far_o all ones says nothing, as that of a quad with a vertex that is not before the eye. lowers_o: a pixel that the
+// quad covers surely is a fragment with such a depth; for that its corners must lie inside [znear, zfar], and D and r^2
+// of an ordinary quad be exact, so that no sum of weights is 0.
 module quadrille_depth_interval #(
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int CODE = quadrille_pkg::CORNER_DEPTH_BITS,
-    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS
+    localparam int DB = quadrille_pkg::DEPTH_BITS, CODE = quadrille_pkg::CORNER_DEPTH_BITS,
+    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS, H = quadrille_pkg::DEPTH_CODE_BITS
 ) (
     input logic clk_i,
-    input logic [CODE-1:0] low_i,
-    input logic [CODE-1:0] high_i,
+    input logic [CODE-1:0] low_i, high_i,
     input logic [LIMITS-1:0] limits_i,  // of quad_reject
     input logic ordinary_i,
-    output logic [H-1:0] near_o,
-    output logic [H-1:0] far_o,
+    output logic [H-1:0] near_o, far_o,
     output logic lowers_o
 );
   localparam int DROP = DB - H;

@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// One multiplier pair of the front: a*b + c*d or a*b - c*d, signed. Latency 5, one job a clock: operands; products of the halves and the
-// halves' sums; the sums' product; the whole products; the result.
+// One multiplier pair of the front: a*b + c*d or a*b - c*d, signed. Latency 5, one job a clock: operands; products of
+// the halves and the halves' sums; the sums' product; the whole products; the result.
 //
-// Operands are DOT_BITS signed. A product takes three multipliers of 18 bits (Karatsuba & Ofman 1962): with x = xh 2^LOW + xl,
-// x y = hh 2^(2 LOW) + ((xh + xl)(yh + yl) - hh - ll) 2^LOW + ll.
-// No enable and no valid: the user keeps track of which job comes out.
+// Operands are DOT_BITS signed. A product takes three multipliers of 18 bits (Karatsuba & Ofman 1962): with x = xh
+// 2^LOW + xl, x y = hh 2^(2 LOW) + ((xh + xl)(yh + yl) - hh - ll) 2^LOW + ll. No enable and no valid: the user keeps
+// track of which job comes out.
 module quadrille_dot_unit #(
-    localparam int W = quadrille_pkg::DOT_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS
+    localparam int W = quadrille_pkg::DOT_BITS, OUT = quadrille_pkg::DOT_OUT_BITS
 ) (
     input logic clk_i,
-    input logic [W-1:0] a_i,
-    input logic [W-1:0] b_i,
-    input logic [W-1:0] c_i,
-    input logic [W-1:0] d_i,
+    input logic [W-1:0] a_i, b_i, c_i, d_i,
     input logic subtract_i,
     output logic [OUT-1:0] result_o
 );
   localparam int LOW = 16;  // the sum of the halves then fits 18 bits, signed
-  localparam int HIGH = W - LOW;
-  localparam int SUM = HIGH + 1;
+  localparam int HIGH = W - LOW, SUM = HIGH + 1;
 
   logic [2*W-1:0] x, y;  // the factors of either product
   logic [2*OUT-1:0] product;

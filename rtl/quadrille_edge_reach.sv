@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far an edge function falls and rises over a tile and over a block, from its value at the first pixel: what tile_walk adds to
-// that value. Combinational.
+// How far an edge function falls and rises over a tile and over a block, from its value at the first pixel: what
+// tile_walk adds to that value. Combinational.
 //
-// Over n x n pixels it reaches from value + (n-1) low to value + (n-1) high, low = min(0, gx) + min(0, gy), high likewise. Ties are
-// counted in: a zero has the sign of (gx, gy), the first that is not 0, or none (tie_pos_o, tie_neg_o), so that
-// 'somewhere negative' is value + fall < 0 and 'somewhere positive' is value + rise >= 0.
+// Over n x n pixels it reaches from value + (n-1) low to value + (n-1) high, low = min(0, gx) + min(0, gy), high
+// likewise. Ties are counted in: a zero has the sign of (gx, gy), the first that is not 0, or none (tie_pos_o,
+// tie_neg_o), so that 'somewhere negative' is value + fall < 0 and 'somewhere positive' is value + rise >= 0.
 module quadrille_edge_reach #(
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int REACH = quadrille_pkg::REACH_BITS
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS
 ) (
-    input logic [GRAD-1:0] gx_i,
-    input logic [GRAD-1:0] gy_i,
-    output logic tie_pos_o,
-    output logic tie_neg_o,
-    output logic [REACH-1:0] fall_tile_o,
-    output logic [REACH-1:0] rise_tile_o,
-    output logic [REACH-1:0] fall_block_o,
-    output logic [REACH-1:0] rise_block_o
+    input logic [GRAD-1:0] gx_i, gy_i,
+    output logic tie_pos_o, tie_neg_o,
+    output logic [REACH-1:0] fall_tile_o, rise_tile_o, fall_block_o, rise_block_o
 );
   localparam int TL = quadrille_pkg::TILE_LOG2;
   localparam int BL = TL + quadrille_pkg::BLOCK_LOG2;
@@ -33,8 +27,8 @@ module quadrille_edge_reach #(
   assign tie_neg_o = x_neg || (gx_i == '0 && y_neg);
   assign tie_pos_o = !tie_neg_o && (gx_i != '0 || gy_i != '0);
 
-  // (n-1) low, less 1 where a zero counts as negative; (n-1) high, less 1 where it does not count as positive. -x is ~x + 1, and that
-  // one or none is the carry-in ({a, 1} + {b, carry}).
+  // (n-1) low, less 1 where a zero counts as negative; (n-1) high, less 1 where it does not count as positive. -x is ~x
+  // + 1, and that one or none is the carry-in ({a, 1} + {b, carry}).
   assign fall_tile_o = REACH'(({low << TL, 1'b1} + {~low, !tie_neg_o}) >> 1);
   assign rise_tile_o = REACH'(({high << TL, 1'b1} + {~high, tie_pos_o}) >> 1);
   assign fall_block_o = REACH'(({low << BL, 1'b1} + {~low, !tie_neg_o}) >> 1);

@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // A raw product as signed fixed point. Latency FIXED_POINT_STAGES (2), one per clock.
 //
-// value = prod_i * 2^(exp_i-(2S-2)); its magnitude is truncated to INT_BITS integer and FRAC_BITS fraction bits. fixed_o has all bits
-// inverted when neg_o is set, which is the sign of a number that is not 0 then: -magnitude is fixed_o, sign-extended, + neg_o.
-// overflow_o: the magnitude is 2^INT_BITS or more. fixed_o and neg_o mean nothing then.
+// value = prod_i * 2^(exp_i-(2S-2)); its magnitude is truncated to INT_BITS integer and FRAC_BITS fraction bits.
+// fixed_o has all bits inverted when neg_o is set, which is the sign of a number that is not 0 then: -magnitude is
+// fixed_o, sign-extended, + neg_o. overflow_o: the magnitude is 2^INT_BITS or more. fixed_o and neg_o mean nothing
+// then.
 module quadrille_fixed_point #(
     parameter int INT_BITS = 8,
     parameter int FRAC_BITS = 25,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int OUT = INT_BITS + FRAC_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, OUT = INT_BITS + FRAC_BITS
 ) (
-    input logic clk_i,
-    input logic neg_i,
+    input logic clk_i, neg_i,
     input logic [E-1:0] exp_i,
     input logic [2*S-1:0] prod_i,
-    output logic overflow_o,
-    output logic neg_o,
+    output logic overflow_o, neg_o,
     output logic [OUT-1:0] fixed_o
 );
   localparam int NEAR = $clog2(OUT + 1);  // bits of a distance that leaves something
   localparam int WIDE = (2 * S > OUT + 1) ? 2 * S : OUT + 1;
 
-  // Stage 1: the product to the top, whose second place has the weight 2^exp_i, and how far down it belongs: that place has
-  // 2^(INT_BITS-1) in the result, which has none for the first. One bit more than exp_i has, which may be at its limit.
+  // Stage 1: the product to the top, whose second place has the weight 2^exp_i, and how far down it belongs: that place
+  // has 2^(INT_BITS-1) in the result, which has none for the first. One bit more than exp_i has, which may be at its
+  // limit.
   logic [E:0] distance_q;
   logic [OUT:0] top_q;
   logic nonzero_q, neg_q;

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The second half of a forward difference, a pixel's own: row + dx gx + q (r^2 + dx^2), exact modulo 2^VALUE_BITS, with what
-// forward_difference_row gives. Latency FORWARD_DIFFERENCE_COLUMN_STAGES, one pixel a clock: the column, and beside it the bend
-// q (r^2 + dx^2); their sum.
+// The second half of a forward difference, a pixel's own: row + dx gx + q (r^2 + dx^2), exact modulo 2^VALUE_BITS, with
+// what forward_difference_row gives. Latency FORWARD_DIFFERENCE_COLUMN_STAGES, one pixel a clock: the column, and
+// beside it the bend q (r^2 + dx^2); their sum.
 //
-// The digits of dx come a clock before the row; their register is here, since one that ten functions shared would cost the time to drive them.
-// Two's complement throughout; dx and r^2 + dx^2 come as offset_digits. A linear function (QUADRATIC = 0) has no bend: it reads neither
-// q_i nor norm_digits_i.
+// The digits of dx come a clock before the row; their register is here, since one that ten functions shared would cost
+// the time to drive them. Two's complement throughout; dx and r^2 + dx^2 come as offset_digits. A linear function
+// (QUADRATIC = 0) has no bend: it reads neither q_i nor norm_digits_i.
 module quadrille_forward_difference_column #(
     parameter int VALUE_BITS = 64,
     parameter int GRAD_BITS = 48,
     parameter int CURV_BITS = 1,
     parameter bit QUADRATIC = 1'b1,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int NORM_BITS = 2 * TILE_LOG2 + 1,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, NORM_BITS = 2 * TILE_LOG2 + 1,
     localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
     localparam int NORM_DIGITS = NORM_BITS / 2 + 1
 ) (
@@ -26,7 +25,7 @@ module quadrille_forward_difference_column #(
 );
   localparam int BEND_BITS = CURV_BITS + NORM_BITS;
 
-  // ---- Column. {a, 1} + {b, carry} is an adder whose carry-in is used ---------------------------------------------------------
+  // ---- Column. {a, 1} + {b, carry} is an adder whose carry-in is used ----------------------------------------------
   logic [GRAD_BITS+TILE_LOG2-1:0] rise;
   logic carry;
   logic [VALUE_BITS-1:0] column_d, column_q;
@@ -34,35 +33,23 @@ module quadrille_forward_difference_column #(
 
   always_ff @(posedge clk_i) dx_digits_q <= dx_digits_i;
 
-  quadrille_small_multiply #(
-      .FACTOR_BITS(GRAD_BITS),
-      .NUMBER_BITS(TILE_LOG2)
-  ) u_rise (
-      .factor_i(gx_i),
-      .digits_i(dx_digits_q),
-      .product_o(rise),
-      .carry_o(carry)
+  quadrille_small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_rise (
+      .factor_i(gx_i), .digits_i(dx_digits_q), .product_o(rise), .carry_o(carry)
   );
 
   assign column_d = VALUE_BITS'(({row_i, 1'b1} + {VALUE_BITS'($signed(rise)), carry}) >> 1);
 
   always_ff @(posedge clk_i) column_q <= column_d;
 
-  // ---- Beside it the bend; then their sum -------------------------------------------------------------------------------------
+  // ---- Beside it the bend; then their sum --------------------------------------------------------------------------
   logic [VALUE_BITS-1:0] bent;
 
   if (QUADRATIC) begin : gen_bend
     logic [BEND_BITS-1:0] bend_d, bend_q;
     logic bend_carry_d, bend_carry_q;
 
-    quadrille_small_multiply #(
-        .FACTOR_BITS(CURV_BITS),
-        .NUMBER_BITS(NORM_BITS)
-    ) u_bend (
-        .factor_i(q_i),
-        .digits_i(norm_digits_i),
-        .product_o(bend_d),
-        .carry_o(bend_carry_d)
+    quadrille_small_multiply #(.FACTOR_BITS(CURV_BITS), .NUMBER_BITS(NORM_BITS)) u_bend (
+        .factor_i(q_i), .digits_i(norm_digits_i), .product_o(bend_d), .carry_o(bend_carry_d)
     );
 
     always_ff @(posedge clk_i) begin

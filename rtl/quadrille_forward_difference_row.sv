@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first half of a forward difference, which all pixels of a row of a tile have in common: value + r gy, exact modulo 2^VALUE_BITS.
-// Latency FORWARD_DIFFERENCE_ROW_STAGES; gx and q wait beside it for forward_difference_column.
+// The first half of a forward difference, which all pixels of a row of a tile have in common: value + r gy, exact
+// modulo 2^VALUE_BITS. Latency FORWARD_DIFFERENCE_ROW_STAGES; gx and q wait beside it for forward_difference_column.
 //
 // Two's complement throughout; r comes as its radix4_digits.
 module quadrille_forward_difference_row #(
@@ -13,8 +13,7 @@ module quadrille_forward_difference_row #(
     input logic clk_i,
     input logic [2*OFFSET_DIGITS-1:0] row_digits_i,
     input logic [VALUE_BITS-1:0] value_i,
-    input logic [GRAD_BITS-1:0] gx_i,
-    input logic [GRAD_BITS-1:0] gy_i,
+    input logic [GRAD_BITS-1:0] gx_i, gy_i,
     input logic [CURV_BITS-1:0] q_i,
     output logic [VALUE_BITS-1:0] row_o,
     output logic [GRAD_BITS-1:0] gx_o,
@@ -24,14 +23,8 @@ module quadrille_forward_difference_row #(
   logic carry;
   logic [VALUE_BITS-1:0] row;
 
-  quadrille_small_multiply #(
-      .FACTOR_BITS(GRAD_BITS),
-      .NUMBER_BITS(TILE_LOG2)
-  ) u_rise (
-      .factor_i(gy_i),
-      .digits_i(row_digits_i),
-      .product_o(rise),
-      .carry_o(carry)
+  quadrille_small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_rise (
+      .factor_i(gy_i), .digits_i(row_digits_i), .product_o(rise), .carry_o(carry)
   );
 
   // {a, 1} + {b, carry} is an adder whose carry-in is used.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sum of two unsigned products, in fewer clocks than fp_sum and with its bits: without a difference the highest one can be in three
-// places only. Latency FP_ADD_STAGES (order, align, add), one per clock.
+// Sum of two unsigned products, in fewer clocks than fp_sum and with its bits: without a difference the highest one can
+// be in three places only. Latency FP_ADD_STAGES (order, align, add), one per clock.
 //
 // Rank and term as fp_term gives them, in the same clock here. Both zero: exp = sig = 0.
 module quadrille_fp_add #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
@@ -17,7 +15,7 @@ module quadrille_fp_add #(
     output logic [E-1:0] exp_o,
     output logic [S-1:0] sig_o
 );
-  // ---- Stage 1: the larger exponent first ------------------------------------------------------------------------------------
+  // ---- Stage 1: the larger exponent first ---------------------------------------------------------------------------
   logic [RANK:0] a_above, b_above;  // with the borrow
   logic swap;
   logic [TERM-1:0] first_q, second_q;
@@ -34,7 +32,7 @@ module quadrille_fp_add #(
     distance_q <= swap ? b_above[E-1:0] : a_above[E-1:0];  // of a zero: any
   end
 
-  // ---- Stage 2: align --------------------------------------------------------------------------------------------------------
+  // ---- Stage 2: align ----------------------------------------------------------------------------------------------
   localparam int NEAR = $clog2(TERM);  // bits of a distance that leaves something of a term
   logic [TERM-1:0] augend_q, addend_q;
   logic [E-1:0] exp_q;
@@ -46,7 +44,7 @@ module quadrille_fp_add #(
     exp_q <= first_exp_q;
   end
 
-  // ---- Stage 3: add. A product in [1, 4) and less than another such one: the highest one is in the upper three places ----------
+  // ---- Stage 3: add. A product in [1, 4) and less than another such one: the highest one is in the upper three -----
   logic [TERM:0] sum;
 
   assign sum = (TERM + 1)'(augend_q) + (TERM + 1)'(addend_q);

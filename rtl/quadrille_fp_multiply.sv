@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Product of two unsigned significand numbers, truncated and normalised. Latency 1, one result per clock.
 //
-// value = sig * 2^(exp-(S-1)), sig's top bit set or sig = exp = 0. Zero if either factor is zero. Signs are the user's business.
+// value = sig * 2^(exp-(S-1)), sig's top bit set or sig = exp = 0. Zero if either factor is zero. Signs are the user's
+// business.
 module quadrille_fp_multiply #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
     input logic clk_i,
     input logic [E-1:0] a_exp_i,
@@ -17,7 +17,12 @@ module quadrille_fp_multiply #(
   logic [2*S-1:0] product;
   logic nonzero;
 
-  assign product = (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
+  quadrille_significand_product u_product (
+      .a_i(a_sig_i),
+      .b_i(b_sig_i),
+      .product_o(product)
+  );
+
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
 
   always_ff @(posedge clk_i) {exp_o, sig_o} <= quadrille_pkg::truncated_product(a_exp_i + b_exp_i, product, nonzero);

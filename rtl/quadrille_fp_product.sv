@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Product of two unsigned significand numbers in both forms: truncated and normalised (fp_multiply), and as a term of fp_sum (fp_term).
-// Latency 1, one result per clock; rank_o is there at once.
+// Product of two unsigned significand numbers in both forms: truncated and normalised (fp_multiply), and as a term of
+// fp_sum (fp_term). Latency 1, one result per clock; rank_o is there at once.
 module quadrille_fp_product #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
@@ -21,8 +19,13 @@ module quadrille_fp_product #(
   logic [2*S-1:0] product;
   logic nonzero;
 
+  quadrille_significand_product u_product (
+      .a_i(a_sig_i),
+      .b_i(b_sig_i),
+      .product_o(product)
+  );
+
   assign exp_sum = a_exp_i + b_exp_i;
-  assign product = (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
   assign rank_o = quadrille_pkg::exponent_rank(exp_sum, nonzero);
 

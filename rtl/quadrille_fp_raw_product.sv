@@ -3,11 +3,9 @@
 //
 // value = product * 2^(exp-(2S-2)). product = 0 if either factor is zero; neg and exp mean nothing then.
 module quadrille_fp_raw_product #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS
 ) (
-    input logic clk_i,
-    input logic neg_i,
+    input logic clk_i, neg_i,
     input logic [E-1:0] a_exp_i,
     input logic [S-1:0] a_sig_i,
     input logic [E-1:0] b_exp_i,
@@ -16,9 +14,17 @@ module quadrille_fp_raw_product #(
     output logic [E-1:0] exp_o,
     output logic [2*S-1:0] prod_o
 );
+  logic [2*S-1:0] product;
+
+  quadrille_significand_product u_product (
+      .a_i(a_sig_i),
+      .b_i(b_sig_i),
+      .product_o(product)
+  );
+
   always_ff @(posedge clk_i) begin
     neg_o <= neg_i;
     exp_o <= a_exp_i + b_exp_i;
-    prod_o <= (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
+    prod_o <= product;
   end
 endmodule

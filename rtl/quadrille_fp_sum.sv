@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signed sum of TERMS (2, 3 or 4) products. Latency FP_SUM_STAGES from neg_i and term_i; the ranks come one clock before those,
-// while the multipliers run (fp_term). One result per clock.
+// Signed sum of TERMS (2, 3 or 4) products. Latency FP_SUM_STAGES from neg_i and term_i; the ranks come one clock
+// before those, while the multipliers run (fp_term). One result per clock.
 //
-// The terms are aligned to the largest exponent E among the non-zero ones and truncated to PREC_BITS fraction bits below it:
+// The terms are aligned to the largest exponent E among the non-zero ones and truncated to PREC_BITS fraction bits
+// below it:
 //
 //     term k   |<- S+1+G bits of product k ->|  >> (E - e_k)
 //     sum       sign + log2(TERMS) carries + S+1+G bits, unit 2^(E-(S-1+G))
 //
-// The result is a significand number with sign; no term, or an exact zero, gives neg = exp = sig = 0. No rounding, no sticky bit.
+// The result is a significand number with sign; no term, or an exact zero, gives neg = exp = sig = 0. No rounding, no
+// sticky bit.
 module quadrille_fp_sum #(
     parameter int TERMS = 4,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
     localparam int RANK = quadrille_pkg::RANK_BITS
 ) (
     input logic clk_i,
@@ -29,22 +29,22 @@ module quadrille_fp_sum #(
   localparam int MAG = TERM + $clog2(TERMS);  // magnitude of the sum
   localparam int SUM = MAG + 1;
 
-  // ---- Beside the multipliers: the higher rank of each pair ----------------------------------------------------------------
+  // ---- Beside the multipliers: the higher rank of each pair --------------------------------------------------------
   logic [TERMS*RANK-1:0] rank_q;
   logic [PAIRS*RANK-1:0] higher_q;
 
   always_ff @(posedge clk_i) rank_q <= rank_i;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_higher
-    localparam int FIRST = 2 * p;
-    localparam int SECOND = (FIRST + 1 < TERMS) ? FIRST + 1 : FIRST;
+    localparam int FIRST = 2 * p, SECOND = (FIRST + 1 < TERMS) ? FIRST + 1 : FIRST;
 
     always_ff @(posedge clk_i) begin
-      higher_q[p*RANK+:RANK] <= (rank_i[SECOND*RANK+:RANK] > rank_i[FIRST*RANK+:RANK]) ? rank_i[SECOND*RANK+:RANK] : rank_i[FIRST*RANK+:RANK];
+      higher_q[p*RANK+:RANK] <= (rank_i[SECOND*RANK+:RANK] > rank_i[FIRST*RANK+:RANK]) ? rank_i[SECOND*RANK+:RANK] :
+          rank_i[FIRST*RANK+:RANK];
     end
   end
 
-  // ---- Stage 1: the highest rank, and how far each term is below it ---------------------------------------------------------
+  // ---- Stage 1: the highest rank, and how far each term is below it ------------------------------------------------
   localparam int NEAR = $clog2(TERM);  // bits of a distance that leaves something of a term
   logic [RANK-1:0] top;
   logic [TERMS*E-1:0] distance_q;
@@ -52,7 +52,8 @@ module quadrille_fp_sum #(
   logic [TERMS-1:0] neg_q;
   logic [E-1:0] top_exp_q;
 
-  assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] : higher_q[0+:RANK];
+  assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] :
+      higher_q[0+:RANK];
 
   always_ff @(posedge clk_i) begin
     for (int k = 0; k < TERMS; k++) distance_q[k*E+:E] <= top[E-1:0] - rank_q[k*RANK+:E];  // of a zero: any
@@ -61,7 +62,7 @@ module quadrille_fp_sum #(
     top_exp_q <= quadrille_pkg::rank_exponent(top);
   end
 
-  // ---- Stage 2: align -------------------------------------------------------------------------------------------------------
+  // ---- Stage 2: align ----------------------------------------------------------------------------------------------
   logic [TERMS*TERM-1:0] aligned_q;
   logic across_q;  // signs of the pairs
   logic aligned_neg_q;
@@ -77,7 +78,7 @@ module quadrille_fp_sum #(
     aligned_exp_q <= top_exp_q;
   end
 
-  // ---- Stage 3: add by pairs, each in the sign of its first term. {a, 1} + {b, carry} is an adder whose carry-in is used --------
+  // ---- Stage 3: add by pairs, each in the sign of its first term; {a, 1} + {b, carry} is an adder with carry-in -----
   logic [PAIRS*PAIR-1:0] pair;
   logic [SUM-1:0] sum_d, sum_q;
   logic sum_neg_q;
@@ -101,7 +102,8 @@ module quadrille_fp_sum #(
     assign unused = across_q;
     assign sum_d = pair;
   end else begin : gen_two_pairs
-    assign sum_d = SUM'(({SUM'($signed(pair[0+:PAIR])), 1'b1} + {SUM'($signed(pair[PAIR+:PAIR])) ^ {SUM{across_q}}, across_q}) >> 1);
+    assign sum_d = SUM'(({SUM'($signed(pair[0+:PAIR])), 1'b1} +
+        {SUM'($signed(pair[PAIR+:PAIR])) ^ {SUM{across_q}}, across_q}) >> 1);
   end
 
   always_ff @(posedge clk_i) begin
@@ -110,7 +112,7 @@ module quadrille_fp_sum #(
     sum_exp_q <= aligned_exp_q;
   end
 
-  // ---- Stage 4: magnitude ----------------------------------------------------------------------------------------------------
+  // ---- Stage 4: magnitude ------------------------------------------------------------------------------------------
   logic magnitude_neg_q;
   logic [MAG-1:0] magnitude_q;
   logic [E-1:0] magnitude_exp_q;
@@ -121,19 +123,15 @@ module quadrille_fp_sum #(
     magnitude_exp_q <= sum_exp_q;
   end
 
-  // ---- Stages 5, 6: normalise ------------------------------------------------------------------------------------------------
+  // ---- Stages 5, 6: normalise --------------------------------------------------------------------------------------
   logic nonzero_neg;
 
   assign nonzero_neg = magnitude_neg_q && magnitude_q != '0;
 
-  quadrille_delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .data_i(nonzero_neg), .data_o(neg_o));
+  quadrille_delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .data_i(nonzero_neg),
+      .data_o(neg_o));
 
   quadrille_fp_normalise #(.WIDTH(MAG)) u_normalise (
-      .clk_i,
-      .active_i(1'b1),
-      .magnitude_i(magnitude_q),
-      .bias_i(magnitude_exp_q - E'(PREC)),
-      .exp_o,
-      .sig_o
+      .clk_i, .active_i(1'b1), .magnitude_i(magnitude_q), .bias_i(magnitude_exp_q - E'(PREC)), .exp_o, .sig_o
   );
 endmodule

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 
-// Where the pixel pipeline, which never waits, meets the fragment port, which may: 2^DEPTH_LOG2 words in memory, the head in a register.
+// Where the pixel pipeline, which never waits, meets the fragment port, which may: 2^DEPTH_LOG2 words in memory, the
+// head in a register.
 //
-// A word is what leaves the pipeline in a clock: the fragments of its lanes, and which lanes have one (at least one has).
-// Not full by credit: pixel_emit sends pixels only when a place for their fragments is free, so that a push always finds room (asserted).
-// The port: valid does not depend on ready, the word is stable while valid and not ready, and zero while not valid.
-// freed_o, a register, is the hand-over of the clock before.
+// A word is what leaves the pipeline in a clock: the fragments of its lanes, and which lanes have one (at least one
+// has). Not full by credit: pixel_emit sends pixels only when a place for their fragments is free, so that a push
+// always finds room (asserted). The port: valid does not depend on ready, the word is stable while valid and not ready,
+// and zero while not valid. freed_o, a register, is the hand-over of the clock before.
 module quadrille_fragment_fifo #(
     parameter int LANES = quadrille_pkg::PIXELS_PER_CLOCK,
     parameter int WIDTH = LANES * quadrille_pkg::FRAGMENT_BITS,
@@ -17,8 +18,7 @@ module quadrille_fragment_fifo #(
     input logic [LANES-1:0] push_i,  // the lanes that have a fragment
     input logic [WIDTH-1:0] data_i,
     output logic busy_o,  // holds a word
-    output logic freed_o,
-    output logic valid_o,
+    output logic freed_o, valid_o,
     input logic ready_i,
     output logic [LANES-1:0] mask_o,
     output logic [WIDTH-1:0] data_o

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quotients to fixed point, their sums with the bases, clamps, discard, output register. Latency FRAGMENT_OUTPUT_STAGES from numerators and
-// reciprocals to the port: products, fixed_point, sums, clamps, output.
+// Quotients to fixed point, their sums with the bases, clamps, discard, output register. Latency FRAGMENT_OUTPUT_STAGES
+// from numerators and reciprocals to the port: products, fixed_point, sums, clamps, output.
 //
-// A quotient is rounded to a code, halves away from zero: fixed_point gives a bit more, which is the carry of the sum with the base.
-// Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, saturated to +-(2^(INT+FRAC)-1). Depth: unsigned, 1 integer
-// bit, DEPTH_BITS fraction bits, clamped to the corners' (quad_reject). A pixel is discarded outside [znear, zfar] and, in a quad whose
-// hull holds the eye, behind the eye. The register holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come
-// one clock before the port, limits and draw state two, bases three.
+// A quotient is rounded to a code, halves away from zero: fixed_point gives a bit more, which is the carry of the sum
+// with the base. Attribute: two's complement, ATTRIBUTE_INT_BITS and ATTRIBUTE_FRAC_BITS, saturated to
+// +-(2^(INT+FRAC)-1). Depth: unsigned, 1 integer bit, DEPTH_BITS fraction bits, clamped to the corners' (quad_reject).
+// A pixel is discarded outside [znear, zfar] and, in a quad whose hull holds the eye, behind the eye. The register
+// holds zeros whenever it is not valid. valid_i and the rest of a pixel's identity come one clock before the port,
+// limits and draw state two, bases three.
 module quadrille_fragment_output #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
-    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
-    localparam int FB = quadrille_pkg::FRAGMENT_BITS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS, DB = quadrille_pkg::DEPTH_BITS, AO = quadrille_pkg::ATTR_OUT_BITS,
+    localparam int ID = quadrille_pkg::QUAD_ID_BITS, FB = quadrille_pkg::FRAGMENT_BITS,
     localparam int FLAGS = quadrille_pkg::CLASS_FLAGS
 ) (
     input logic clk_i,
@@ -44,18 +40,15 @@ module quadrille_fragment_output #(
     // One clock before the port
     input logic valid_i,
     input logic [ID-1:0] id_i,
-    input logic hull_i,
-    input logic homogeneous_i,
-    input logic [V-1:0] x_i,
-    input logic [V-1:0] y_i,
-    input logic front_i,
-    input logic tie_i,
+    input logic hull_i, homogeneous_i,
+    input logic [V-1:0] x_i, y_i,
+    input logic front_i, tie_i,
     input logic [FLAGS-1:0] flags_i,  // of the class, CLASS_NOTCH lowest
     // Port
     output logic valid_o,
     output logic [FB-1:0] fragment_o
 );
-  // ---- Attributes ---------------------------------------------------------------------------------------------------------
+  // ---- Attributes ---------------------------------------------------------------------------------------------------
   localparam int TO_FIXED = quadrille_pkg::FIXED_POINT_STAGES;
   logic [N-1:0] overflow;
   logic [N*AO-1:0] attr;
@@ -70,15 +63,8 @@ module quadrille_fragment_output #(
     logic [SUM-1:0] sum_q;
 
     quadrille_fp_raw_product u_product (
-        .clk_i,
-        .neg_i(attr_neg_i[g] ^ rk_neg_i),
-        .a_exp_i(attr_exp_i[g*E+:E]),
-        .a_sig_i(attr_sig_i[g*S+:S]),
-        .b_exp_i(rk_exp_i),
-        .b_sig_i(rk_sig_i),
-        .neg_o(prod_neg),
-        .exp_o(exp),
-        .prod_o(prod)
+        .clk_i, .neg_i(attr_neg_i[g] ^ rk_neg_i), .a_exp_i(attr_exp_i[g*E+:E]), .a_sig_i(attr_sig_i[g*S+:S]),
+        .b_exp_i(rk_exp_i), .b_sig_i(rk_sig_i), .neg_o(prod_neg), .exp_o(exp), .prod_o(prod)
     );
 
     // A difference of two values has one integer bit more than a value.
@@ -86,19 +72,13 @@ module quadrille_fragment_output #(
         .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS + 1),
         .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS + 1)
     ) u_fixed (
-        .clk_i,
-        .neg_i(prod_neg),
-        .exp_i(exp),
-        .prod_i(prod),
-        .overflow_o(overflow_d),
-        .neg_o(neg),
-        .fixed_o(fixed)
+        .clk_i, .neg_i(prod_neg), .exp_i(exp), .prod_i(prod), .overflow_o(overflow_d), .neg_o(neg), .fixed_o(fixed)
     );
 
     quadrille_delay_line #(.WIDTH(1), .DEPTH(TO_FIXED + 1)) u_delay_neg (.clk_i, .data_i(prod_neg), .data_o(late_neg));
 
-    // base + q or base + ~q + 1. Rounded q is one more where its last bit is set: then a carry the more, or the one not, which of both
-    // fixed's last bit says as it is. {a, 1} + {b, carry} is an adder whose carry-in is used.
+    // base + q or base + ~q + 1. Rounded q is one more where its last bit is set: then a carry the more, or the one
+    // not, which of both fixed's last bit says as it is. {a, 1} + {b, carry} is an adder whose carry-in is used.
     always_ff @(posedge clk_i) begin
       sum_q <= SUM'(({SUM'($signed(base_attr_i[g*AO+:AO])), 1'b1} + {{2{neg}}, fixed}) >> 1);
       overflow_q <= overflow_d;
@@ -116,7 +96,7 @@ module quadrille_fragment_output #(
     end
   end
 
-  // ---- Depth --------------------------------------------------------------------------------------------------------------
+  // ---- Depth -------------------------------------------------------------------------------------------------------
   localparam int Z_SUM = DB + 3;  // signed: a quotient is below 2, a base at most 1
   logic z_prod_neg, z_neg, late_z_neg, w_zero, w_neg;
   logic [E-1:0] z_exp;
@@ -125,39 +105,21 @@ module quadrille_fragment_output #(
   logic [DB+1:0] z_fixed;  // with the bit that rounds
   logic [Z_SUM-1:0] z_q;
   logic outside, near_cuts, far_cuts, below, beyond;
-  logic [DB:0] least_z, greatest_z;
-  logic [DB:0] depth_q;
+  logic [DB:0] least_z, greatest_z, depth_q;
   logic depth_discard_q, behind_q, behind_early_q;
 
   quadrille_fp_raw_product u_product_z (
-      .clk_i,
-      .neg_i(z_neg_i ^ rw_neg_i),
-      .a_exp_i(z_exp_i),
-      .a_sig_i(z_sig_i),
-      .b_exp_i(rw_exp_i),
-      .b_sig_i(rw_sig_i),
-      .neg_o(z_prod_neg),
-      .exp_o(z_exp),
-      .prod_o(z_prod)
+      .clk_i, .neg_i(z_neg_i ^ rw_neg_i), .a_exp_i(z_exp_i), .a_sig_i(z_sig_i), .b_exp_i(rw_exp_i), .b_sig_i(rw_sig_i),
+      .neg_o(z_prod_neg), .exp_o(z_exp), .prod_o(z_prod)
   );
 
   quadrille_delay_line #(.WIDTH(1), .DEPTH(TO_FIXED)) u_delay_z_neg (.clk_i, .data_i(z_prod_neg), .data_o(late_z_neg));
   quadrille_delay_line #(.WIDTH(2), .DEPTH(quadrille_pkg::PRODUCT_STAGES + TO_FIXED)) u_delay_w (
-      .clk_i,
-      .data_i({rw_sig_i == '0, rw_neg_i}),
-      .data_o({w_zero, w_neg})
+      .clk_i, .data_i({rw_sig_i == '0, rw_neg_i}), .data_o({w_zero, w_neg})
   );
 
-  quadrille_fixed_point #(
-      .INT_BITS(1),
-      .FRAC_BITS(DB + 1)
-  ) u_fixed_z (
-      .clk_i,
-      .neg_i(z_prod_neg),
-      .exp_i(z_exp),
-      .prod_i(z_prod),
-      .overflow_o(z_overflow),
-      .neg_o(z_neg),
+  quadrille_fixed_point #(.INT_BITS(1), .FRAC_BITS(DB + 1)) u_fixed_z (
+      .clk_i, .neg_i(z_prod_neg), .exp_i(z_exp), .prod_i(z_prod), .overflow_o(z_overflow), .neg_o(z_neg),
       .fixed_o(z_fixed)
   );
 
@@ -179,7 +141,7 @@ module quadrille_fragment_output #(
     behind_q <= behind_early_q;
   end
 
-  // ---- Output register ----------------------------------------------------------------------------------------------------
+  // ---- Output register ---------------------------------------------------------------------------------------------
   logic two_corner, on_vertex, two_edge, on_edge, notch;
   logic [7:0] flags;
   logic valid_d;

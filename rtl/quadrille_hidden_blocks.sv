@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 
-// Hidden blocks: of blocks of 8x8 tiles of the viewport's grid, bounds that no depth of theirs exceeds in the depth buffer (SPEC.md,
-// hidden_blocks), looked at while tile_walk tests a block, and learned from what hierarchical_z says of each tile under test.
+// Hidden blocks: of blocks of 8x8 tiles of the viewport's grid, bounds that no depth of theirs exceeds in the depth
+// buffer (SPEC.md, hidden_blocks), looked at while tile_walk tests a block, and learned from what hierarchical_z says
+// of each tile under test.
 //
-// A block of the walk begins at any tile and so lies over up to four blocks of the grid. They are read at once, from four banks by the
-// lowest bit of a block's column and row: what two neighbours have in common never is that bit. hidden_o says in the clock after the test
-// that near does not lie before any of those that a tile of the walk's block is in.
+// A block of the walk begins at any tile and so lies over up to four blocks of the grid. They are read at once, from
+// four banks by the lowest bit of a block's column and row: what two neighbours have in common never is that bit.
+// hidden_o says in the clock after the test that near does not lie before any of those that a tile of the walk's block
+// is in.
 //
-// What a tile's test says goes into its block's word a step of the walk later; the word is read with the test, and those of the two
-// tiles before go around the memory. A block that is tested meanwhile does not see it, nor need it: what a quad teaches hides nothing of
-// itself, and what the walk has in hand at once lies less than four columns and rows of blocks apart, so that none of it is
-// forgotten for another (asserted). The next quad's first block is tested later.
+// What a tile's test says goes into its block's word a step of the walk later; the word is read with the test, and
+// those of the two tiles before go around the memory. A block that is tested meanwhile does not see it, nor need it:
+// what a quad teaches hides nothing of itself, and what the walk has in hand at once lies less than four columns and
+// rows of blocks apart, so that none of it is forgotten for another (asserted). The next quad's first block is tested
+// later.
 module quadrille_hidden_blocks #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
-    localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2,
-    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
+    localparam int TC = quadrille_pkg::TC_BITS, H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2, PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
     localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
     input logic clk_i,
@@ -28,17 +29,13 @@ module quadrille_hidden_blocks #(
     // The block under test, by its first tile and the tiles behind that
     input logic go_i,  // the walk moves
     input logic test_i,  // and tests a block
-    input logic [TC-1:0] tile_x_i,
-    input logic [TC-1:0] tile_y_i,
-    input logic [BLOCK_LOG2-1:0] last_column_i,
-    input logic [BLOCK_LOG2-1:0] last_row_i,
+    input logic [TC-1:0] tile_x_i, tile_y_i,
+    input logic [BLOCK_LOG2-1:0] last_column_i, last_row_i,
     input logic [H-1:0] near_i,  // of its quad; a clock later
     output logic hidden_o,  // if it was a block, nothing of it can be seen
     // The tile under test; a clock later: no depth of it is beyond far, or it is hidden, and none is beyond near + 1
-    input logic [TC-1:0] learn_x_i,
-    input logic [TC-1:0] learn_y_i,
-    input logic learn_i,
-    input logic learn_hidden_i,
+    input logic [TC-1:0] learn_x_i, learn_y_i,
+    input logic learn_i, learn_hidden_i,
     input logic [H-1:0] near_next_i,  // of its quad, for another step
     input logic [H-1:0] far_i
 );
@@ -48,10 +45,8 @@ module quadrille_hidden_blocks #(
   localparam int PLACES = ROW + COLUMN;
   localparam int INDEX = PLACES - 2;  // of a bank
   // Coordinates of a tile have TC - 1 bits, those of a block BLOCK_LOG2 less. A tag has one at least, which then is 0.
-  localparam int COORDINATE = TC - 1 - BLOCK_LOG2;
-  localparam int TAG_X = (COORDINATE > COLUMN) ? COORDINATE - COLUMN : 1;
-  localparam int TAG_Y = (COORDINATE > ROW) ? COORDINATE - ROW : 1;
-  localparam int TAG = TAG_X + TAG_Y;
+  localparam int COORDINATE = TC - 1 - BLOCK_LOG2, TAG_X = (COORDINATE > COLUMN) ? COORDINATE - COLUMN : 1;
+  localparam int TAG_Y = (COORDINATE > ROW) ? COORDINATE - ROW : 1, TAG = TAG_X + TAG_Y;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
   localparam int BANKS = 4;  // {lowest bit of the row, of the column}
   localparam int TILES = 1 << 2 * BLOCK_LOG2;
@@ -60,7 +55,7 @@ module quadrille_hidden_blocks #(
   localparam int BOUND = TAG + EPOCH + H;  // {tag, epoch, far}: what a test reads
   localparam int WORD = BOUND + H + TILES;  // {bound, masked_far, mask}: what a tile that is learned reads
 
-  // ---- The block under test -------------------------------------------------------------------------------------------------
+  // ---- The block under test ----------------------------------------------------------------------------------------
   // Columns and rows without their lowest bit: with a first column that is odd, the even one is the next.
   logic [WIDE-1:0] first_x, first_y;
   logic [BLOCK_LOG2:0] end_x, end_y;
@@ -78,7 +73,7 @@ module quadrille_hidden_blocks #(
   assign needs_x = {first_x[0] || end_x[BLOCK_LOG2], !first_x[0] || end_x[BLOCK_LOG2]};
   assign needs_y = {first_y[0] || end_y[BLOCK_LOG2], !first_y[0] || end_y[BLOCK_LOG2]};
 
-  // ---- The tile that is tested ----------------------------------------------------------------------------------------------
+  // ---- The tile that is tested -------------------------------------------------------------------------------------
   // 1: its test is known, its block's word is there; 2: what it teaches becomes the block's.
   logic learn_q2, learn_q3, again_q2;
   logic [WIDE-1:0] learn_x, learn_y;
@@ -111,9 +106,9 @@ module quadrille_hidden_blocks #(
     end
   end
 
-  // ---- What it makes of its block -------------------------------------------------------------------------------------------
-  // {far, masked_far, mask}; masked_far is 0 where the mask is empty. A word is read a step before that of the tile two before is written;
-  // tiles so near one another in the walk that have one place have one block.
+  // ---- What it makes of its block ----------------------------------------------------------------------------------
+  // {far, masked_far, mask}; masked_far is 0 where the mask is empty. A word is read a step before that of the tile two
+  // before is written; tiles so near one another in the walk that have one place have one block.
   localparam int STATE = 2 * H + TILES;
   logic [WORD-1:0] word_q1;
   logic [STATE-1:0] state_q2, before_q3, state, next;
@@ -147,14 +142,15 @@ module quadrille_hidden_blocks #(
     end
   end
 
-  // ---- Memory ---------------------------------------------------------------------------------------------------------------
+  // ---- Memory ------------------------------------------------------------------------------------------------------
   // A word that is written while it is read is not looked at, but before_q3 (asserted).
   (* no_rw_check *) logic [WORD-1:0] word_mem[0:(1<<PLACES)-1];
   logic write;
   logic [INDEX-1:0] wipe_index, write_index;
   logic [WORD-1:0] new_word;
   logic [PLACES-1:0] write_place;
-  logic [BANKS-1:0] behind;  // what the bank's word tells of the block under test: nothing of it can be seen, or it is not asked
+  // what the bank's word tells of the block under test: nothing of it can be seen, or it is not asked
+  logic [BANKS-1:0] behind;
 
   assign write = wipe_i || (joins && go_i);
   assign write_place = wipe_i ? wipe_place_i[PLACE-1-:PLACES] : place_q2;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expression (12) of Hormann & Tarini 2004 and its negation, for PLACES places at once: pixels, or squares of them. Combinational.
+// Expression (12) of Hormann & Tarini 2004 and its negation, for PLACES places at once: pixels, or squares of them.
+// Combinational.
 //
-// Edge k (01 12 23 30, and the diagonal 20 as 4) of place p is at bit k*PLACES+p: pos_i, it can be positive there, neg_i, negative; in a
-// square both may be, at a pixel at most one is. visible_i masks the two clauses of either sign (quad_setup). cull_i: 1 front, 2 back.
+// Edge k (01 12 23 30, and the diagonal 20 as 4) of place p is at bit k*PLACES+p: pos_i, it can be positive there,
+// neg_i, negative; in a square both may be, at a pixel at most one is. visible_i masks the two clauses of either sign
+// (quad_setup). cull_i: 1 front, 2 back.
 module quadrille_inside_expression #(
     parameter int PLACES = 1
 ) (
     input logic [1:0] cull_i,
     input logic [3:0] visible_i,
-    input logic [5*PLACES-1:0] pos_i,
-    input logic [5*PLACES-1:0] neg_i,
+    input logic [5*PLACES-1:0] pos_i, neg_i,
     output logic [PLACES-1:0] back_o,  // clockwise as one sees it
     output logic [PLACES-1:0] front_o
 );

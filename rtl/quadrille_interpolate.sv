@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Weighted sums over the corners: term set t gives sum_t = M_0 c_t0 + M_1 c_t1 + M_2 c_t2 + M_3 c_t3, signed, for the sets
-// k_eff, W, Z, b_0, b_1, ... Latency PRODUCT_STAGES + FP_SUM_STAGES (quadrille_pkg), one pixel per clock.
+// Weighted sums over the corners: term set t gives sum_t = M_0 c_t0 + M_1 c_t1 + M_2 c_t2 + M_3 c_t3, signed, for the
+// sets k_eff, W, Z, b_0, b_1, ... Latency PRODUCT_STAGES + FP_SUM_STAGES (quadrille_pkg), one pixel per clock.
 //
-// An attribute is counted from corner 0's: c_t0 = 0 has no term and no multiplier. The terms of a set follow one another, corner by
-// corner, and the sets too; term exponents have the port's width. Does not divide.
+// An attribute is counted from corner 0's: c_t0 = 0 has no term and no multiplier. The terms of a set follow one
+// another, corner by corner, and the sets too; term exponents have the port's width. Does not divide.
 module quadrille_interpolate #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int TERMS = quadrille_pkg::BLEND_TERMS
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, PE = quadrille_pkg::PORT_EXP_BITS,
+    localparam int SETS = 3 + quadrille_pkg::ATTRIBUTE_SLOTS, TERMS = quadrille_pkg::BLEND_TERMS
 ) (
     input logic clk_i,
     input logic [4*E-1:0] m_exp_i,
@@ -25,8 +22,7 @@ module quadrille_interpolate #(
   localparam int RANK = quadrille_pkg::RANK_BITS;
 
   for (genvar t = 0; t < SETS; t++) begin : gen_set
-    localparam int CORNERS = (t < 3) ? 4 : 3;
-    localparam int FIRST = (t < 3) ? 4 * t : 12 + 3 * (t - 3);
+    localparam int CORNERS = (t < 3) ? 4 : 3, FIRST = (t < 3) ? 4 * t : 12 + 3 * (t - 3);
     logic [CORNERS*RANK-1:0] rank;
     logic [CORNERS-1:0] neg;
     logic [CORNERS*TERM-1:0] term;
@@ -35,25 +31,14 @@ module quadrille_interpolate #(
       localparam int V = 4 - CORNERS + c;
 
       quadrille_fp_term u_term (
-          .clk_i,
-          .neg_i(term_neg_i[FIRST+c]),
-          .a_exp_i(m_exp_i[V*E+:E]),
-          .a_sig_i(m_sig_i[V*S+:S]),
-          .b_exp_i(E'($signed(term_exp_i[(FIRST+c)*PE+:PE]))),
-          .b_sig_i(term_sig_i[(FIRST+c)*S+:S]),
-          .rank_o(rank[c*RANK+:RANK]),
-          .neg_o(neg[c]),
-          .term_o(term[c*TERM+:TERM])
+          .clk_i, .neg_i(term_neg_i[FIRST+c]), .a_exp_i(m_exp_i[V*E+:E]), .a_sig_i(m_sig_i[V*S+:S]),
+          .b_exp_i(E'($signed(term_exp_i[(FIRST+c)*PE+:PE]))), .b_sig_i(term_sig_i[(FIRST+c)*S+:S]),
+          .rank_o(rank[c*RANK+:RANK]), .neg_o(neg[c]), .term_o(term[c*TERM+:TERM])
       );
     end
 
     quadrille_fp_sum #(.TERMS(CORNERS)) u_sum (
-        .clk_i,
-        .rank_i(rank),
-        .neg_i(neg),
-        .term_i(term),
-        .neg_o(sum_neg_o[t]),
-        .exp_o(sum_exp_o[t*E+:E]),
+        .clk_i, .rank_i(rank), .neg_i(neg), .term_i(term), .neg_o(sum_neg_o[t]), .exp_o(sum_exp_o[t*E+:E]),
         .sig_o(sum_sig_o[t*S+:S])
     );
   end

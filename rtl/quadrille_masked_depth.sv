@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
-// Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a nearer one for the
-// pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
+// Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a
+// nearer one for the pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
 //
-// An entry is read when its tile leaves coverage's tag register (load_i), and judged beside the context register. Its rows go with
-// coverage's: a row's covered pixels come two clocks after it is issued, and are written the clock after that; what holds for the tile is
-// written with its last row. wait_o keeps a tile in the tag register while one before it may still write to its place: then what a tile
-// sees is what all tiles before it left, whatever waited.
+// An entry is read when its tile leaves coverage's tag register (load_i), and judged beside the context register. Its
+// rows go with coverage's: a row's covered pixels come two clocks after it is issued, and are written the clock after
+// that; what holds for the tile is written with its last row. wait_o keeps a tile in the tag register while one before
+// it may still write to its place: then what a tile sees is what all tiles before it left, whatever waited.
 //
-// Epochs and wiped places are hierarchical_z's. A mask of another epoch, or of a bound that is all ones, is none, so masks are not wiped.
+// Epochs and wiped places are hierarchical_z's. A mask of another epoch, or of a bound that is all ones, is none, so
+// masks are not wiped.
 module quadrille_masked_depth #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int TILE = quadrille_pkg::TILE,
-    localparam int H = quadrille_pkg::DEPTH_CODE_BITS,
-    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2,
-    localparam int EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
+    localparam int TC = quadrille_pkg::TC_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, TILE = quadrille_pkg::TILE, H = quadrille_pkg::DEPTH_CODE_BITS,
+    localparam int PLACE = quadrille_pkg::HIERARCHICAL_Z_TILES_LOG2, EPOCH = quadrille_pkg::HIDDEN_EPOCH_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -26,40 +24,27 @@ module quadrille_masked_depth #(
     input logic [PLACE-1:0] wipe_place_i,
     input logic [EPOCH-1:0] epoch_i,
     // Quad: depth_interval's judgement the clock after start
-    input logic on_i,
-    input logic start_i,
+    input logic on_i, start_i,
     input logic [SLOT-1:0] start_slot_i,
-    input logic [H-1:0] near_i,
-    input logic [H-1:0] far_i,
+    input logic [H-1:0] near_i, far_i,
     input logic lowers_i,
-    // Coverage's tag register
-    input logic end_i,
-    input logic [SLOT-1:0] slot_i,
-    input logic [TC-1:0] tile_x_i,
-    input logic [TC-1:0] tile_y_i,
-    input logic [TILE_LOG2-1:0] last_row_i,
+    // Coverage: the tile in its tag register, and what its registers do
+    input logic [quadrille_pkg::TAG_BITS-1:0] tile_i,
     output logic wait_o,
-    input logic load_i,  // it moves on to the context register,
-    input logic rows_load_i,  // from there to the rows register,
-    output logic hidden_o,  // in which nothing of it can be seen: one row, without a pixel, is issued
-    // and from there a row is issued, the last one of its tile or entry with done_i
-    input logic issue_i,
-    input logic done_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    // Two clocks later
-    input logic [TILE-1:0] covered_i,
-    output logic [TILE-1:0] seen_o  // pixels of the row that may be seen
+    input logic [quadrille_pkg::ROWS_BITS-1:0] rows_i,
+    output logic hidden_o,  // nothing of the tile in the rows register can be seen: one row, without a pixel, is issued
+    output logic [TILE-1:0] seen_o  // pixels that may be seen, of the row issued two clocks before
 );
+  `QUADRILLE_IN(`QUADRILLE_TAG_T, tile)
+  `QUADRILLE_IN(`QUADRILLE_ROWS_T, rows)
   localparam int ROW = PLACE / 2;
-  localparam int COLUMN = PLACE - ROW;
-  localparam int TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
-  localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1;
-  localparam int TAG = TAG_X + TAG_Y;
+  localparam int COLUMN = PLACE - ROW, TAG_X = (TC - 1 > COLUMN) ? TC - 1 - COLUMN : 1;
+  localparam int TAG_Y = (TC - 1 > ROW) ? TC - 1 - ROW : 1, TAG = TAG_X + TAG_Y;
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
   localparam int BOUNDS = TAG + EPOCH + 2 * H;  // {tag, epoch, far, masked_far}
   localparam logic [H-1:0] UNKNOWN = {H{1'b1}};  // not '1, of which Yosys 0.23 makes 1 in a parameter
 
-  // ---- The quads ------------------------------------------------------------------------------------------------------------
+  // ---- The quads ---------------------------------------------------------------------------------------------------
   logic [2*H:0] interval_q[0:(1<<SLOT)-1];  // {lowers, near, far}
   logic start_q1;
   logic [SLOT-1:0] start_slot_q1;
@@ -70,21 +55,20 @@ module quadrille_masked_depth #(
     if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, near_i, far_i};
   end
 
-  // ---- The tile in the tag register -----------------------------------------------------------------------------------------
+  // ---- The tile in the tag register --------------------------------------------------------------------------------
   logic [WIDE-1:0] wide_x, wide_y;
   logic [PLACE-1:0] place;
   logic [TAG-1:0] tag;
   logic [2*H:0] interval;
 
-  assign wide_x = WIDE'(tile_x_i);
-  assign wide_y = WIDE'(tile_y_i);
+  assign wide_x = WIDE'(tile.tile_x);
+  assign wide_y = WIDE'(tile.tile_y);
   assign place = {wide_y[ROW-1:0], wide_x[COLUMN-1:0]};
   assign tag = {wide_y[ROW+:TAG_Y], wide_x[COLUMN+:TAG_X]};
-  assign interval = interval_q[slot_i];
+  assign interval = interval_q[tile.slot];
 
-  // ---- Memory: a place that is read is never the one that is written (asserted below) ---------------------------------------
-  logic [TILE-1:0] rows_write, rows_clear;
-  logic [TILE-1:0] row_word_q3;
+  // ---- Memory: a place that is read is never the one that is written (asserted below) ------------------------------
+  logic [TILE-1:0] rows_write, rows_clear, row_word_q3;
   logic bounds_write;
   logic [PLACE-1:0] place_q3, bounds_place;
   logic [BOUNDS-1:0] bounds_word, bounds_read;
@@ -94,7 +78,7 @@ module quadrille_masked_depth #(
 
   always_ff @(posedge clk_i) begin
     if (bounds_write) bounds_q[bounds_place] <= bounds_word;
-    if (load_i) bounds_read <= bounds_q[place];
+    if (rows.load) bounds_read <= bounds_q[place];
   end
 
   for (genvar r = 0; r < TILE; r++) begin : gen_mask
@@ -102,11 +86,11 @@ module quadrille_masked_depth #(
 
     always_ff @(posedge clk_i) begin
       if (rows_write[r]) row_q[place_q3] <= rows_clear[r] ? '0 : row_word_q3;
-      if (load_i) mask_read[r*TILE+:TILE] <= row_q[place];
+      if (rows.load) mask_read[r*TILE+:TILE] <= row_q[place];
     end
   end
 
-  // ---- In the context register: what holds, and what the quad makes of it ---------------------------------------------------
+  // ---- In the context register: what holds, and what the quad makes of it ------------------------------------------
   logic context_lowers_q;
   logic [PLACE-1:0] place_c, place_r;
   logic [TAG-1:0] tag_c, tag_r, bounds_tag;
@@ -116,10 +100,10 @@ module quadrille_masked_depth #(
   logic known, useful;
 
   always_ff @(posedge clk_i) begin
-    if (load_i) begin
+    if (rows.load) begin
       place_c <= place;
       tag_c <= tag;
-      last_row_c <= last_row_i;
+      last_row_c <= tile.last_row;
       {near_c, far_c} <= interval[2*H-1:0];
     end
   end
@@ -128,9 +112,9 @@ module quadrille_masked_depth #(
   assign known = bounds_tag == tag_c && bounds_epoch == epoch_i;
   assign useful = context_lowers_q && (!known || far_c < bounds_far);
 
-  // ---- In the rows register -------------------------------------------------------------------------------------------------
-  // Nearer than the mask by more than a quarter of what the mask is before the rest: 4 (masked - far_c) > far - masked. As masked is
-  // below far, far_c then is below masked.
+  // ---- In the rows register ----------------------------------------------------------------------------------------
+  // Nearer than the mask by more than a quarter of what the mask is before the rest: 4 (masked - far_c) > far - masked.
+  // As masked is below far, far_c then is below masked.
   logic rows_lowers_q, first_q, masked_hidden_q, useful_q, no_mask_q, begins, joins;
   logic [H-1:0] far_q, old_masked_q, quad_far_q, masked;
   logic [H+2:0] five_masked_q, rest_q;
@@ -139,7 +123,7 @@ module quadrille_masked_depth #(
   logic rest_whole;  // the rows behind the last one that is issued
 
   always_ff @(posedge clk_i) begin
-    if (rows_load_i) begin
+    if (rows.rows_load) begin
       place_r <= place_c;
       tag_r <= tag_c;
       last_row_r <= last_row_c;
@@ -154,7 +138,7 @@ module quadrille_masked_depth #(
       quad_far_q <= far_c;
       mask_q <= mask_read;
     end
-    first_q <= rows_load_i || (first_q && !issue_i);
+    first_q <= rows.rows_load || (first_q && !rows.issue);
   end
 
   assign begins = useful_q && (no_mask_q || five_masked_q > rest_q);
@@ -168,10 +152,11 @@ module quadrille_masked_depth #(
     end
   end
 
-  assign old_row = mask_q[row_i*TILE+:TILE];
+  assign old_row = mask_q[rows.row*TILE+:TILE];
 
-  // ---- Issued rows ----------------------------------------------------------------------------------------------------------
-  localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;  // {place, tag, far, masked, row, first, last, rest_whole}
+  // ---- Issued rows -------------------------------------------------------------------------------------------------
+  // {place, tag, far, masked, row, first, last, rest_whole}
+  localparam int TAGGED = PLACE + TAG + 2 * H + TILE_LOG2 + 3;
   logic [2:0] begins_way_q, joins_way_q;  // 0: a clock after the issue; neither where the quad changes nothing
   logic [1:0] masked_hidden_way_q, hidden_way_q;
   logic [TAGGED-1:0] way_q1, way_q2, way_q3;
@@ -180,23 +165,22 @@ module quadrille_masked_depth #(
   logic [TILE_LOG2-1:0] row_q3;
   logic [TAG-1:0] tag_q3;
   logic [H-1:0] far_q3, masked_q3;
-  logic some, more, changed_q, changed_before, whole_q;
-  logic write_q3, clear_q3, lowers_tile;
+  logic some, more, changed_q, changed_before, whole_q, write_q3, clear_q3, lowers_tile;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       begins_way_q <= '0;
       joins_way_q <= '0;
     end else begin
-      begins_way_q <= {begins_way_q[1:0], issue_i && begins};
-      joins_way_q <= {joins_way_q[1:0], issue_i && joins};
+      begins_way_q <= {begins_way_q[1:0], rows.issue && begins};
+      joins_way_q <= {joins_way_q[1:0], rows.issue && joins};
     end
   end
 
   always_ff @(posedge clk_i) begin
     masked_hidden_way_q <= {masked_hidden_way_q[0], masked_hidden_q};
     hidden_way_q <= {hidden_way_q[0], hidden_o};
-    way_q1 <= {place_r, tag_r, far_q, masked, row_i, first_q, done_i, rest_whole};
+    way_q1 <= {place_r, tag_r, far_q, masked, rows.row, first_q, rows.done, rest_whole};
     way_q2 <= way_q1;
     way_q3 <= way_q2;
     old_q1 <= old_row;
@@ -209,9 +193,9 @@ module quadrille_masked_depth #(
   assign seen_o = ~({TILE{masked_hidden_way_q[1]}} & old_q2) & {TILE{!hidden_way_q[1]}};
 
   // The row's part of the mask, and whether the tile's has changed with it.
-  assign some = covered_i != '0;
-  assign more = begins_way_q[1] ? some : (covered_i & ~old_q2) != '0;
-  assign row_word = joins_way_q[1] ? covered_i | old_q2 : covered_i;
+  assign some = rows.covered != '0;
+  assign more = begins_way_q[1] ? some : (rows.covered & ~old_q2) != '0;
+  assign row_word = joins_way_q[1] ? rows.covered | old_q2 : rows.covered;
   assign changed_before = changed_q && !first_q2;
 
   always_ff @(posedge clk_i) begin
@@ -237,19 +221,20 @@ module quadrille_masked_depth #(
   assign bounds_word = wipe_i ? {tag_q3, epoch_i, UNKNOWN, UNKNOWN}
       : (whole_q && rest_whole_q3) ? {tag_q3, epoch_i, masked_q3, UNKNOWN} : {tag_q3, epoch_i, far_q3, masked_q3};
 
-  // ---- Tiles that may still write: the low bits of their places are enough, of x and of y ------------------------------------
+  // ---- Tiles that may still write: the low bits of their places are enough, of x and of y --------------------------
   // Of one quad no two are so near one another in the walk that these could be the same.
   localparam int LOW = 3;
   logic [2*LOW-1:0] low, low_c, low_r, low_q1, low_q2, low_q3;
   logic [2:0] way_lowers_q;
 
-  assign low = {tile_y_i[LOW-1:0], tile_x_i[LOW-1:0]};
-  assign wait_o = !end_i && ((context_lowers_q && low == low_c) || (rows_lowers_q && low == low_r)
-      || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) || (way_lowers_q[2] && low == low_q3));
+  assign low = {tile.tile_y[LOW-1:0], tile.tile_x[LOW-1:0]};
+  assign wait_o = !tile.end_token && ((context_lowers_q && low == low_c) || (rows_lowers_q && low == low_r)
+      || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) ||
+          (way_lowers_q[2] && low == low_q3));
 
   always_ff @(posedge clk_i) begin
-    if (load_i) low_c <= low;
-    if (rows_load_i) low_r <= low_c;
+    if (rows.load) low_c <= low;
+    if (rows.rows_load) low_r <= low_c;
     low_q1 <= low_r;
     low_q2 <= low_q1;
     low_q3 <= low_q2;
@@ -258,9 +243,9 @@ module quadrille_masked_depth #(
       rows_lowers_q <= 1'b0;
       way_lowers_q <= '0;
     end else begin
-      context_lowers_q <= load_i ? interval[2*H] && !end_i : context_lowers_q && !rows_load_i;
-      rows_lowers_q <= rows_load_i ? context_lowers_q : rows_lowers_q && !done_i;
-      way_lowers_q <= {way_lowers_q[1:0], issue_i && rows_lowers_q};
+      context_lowers_q <= rows.load ? interval[2*H] && !tile.end_token : context_lowers_q && !rows.rows_load;
+      rows_lowers_q <= rows.rows_load ? context_lowers_q : rows_lowers_q && !rows.done;
+      way_lowers_q <= {way_lowers_q[1:0], rows.issue && rows_lowers_q};
     end
   end
 
@@ -271,10 +256,10 @@ module quadrille_masked_depth #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       `QUADRILLE_ASSERT(assert_bounds_race,
-          !load_i || end_i || !bounds_write || place != bounds_place,
+          !rows.load || tile.end_token || !bounds_write || place != bounds_place,
           "bounds are not read in the clock of their write")
       `QUADRILLE_ASSERT(assert_mask_race,
-          !load_i || end_i || !write_q3 || place != place_q3,
+          !rows.load || tile.end_token || !write_q3 || place != place_q3,
           "a mask is not read in the clock of its write")
     end
   end

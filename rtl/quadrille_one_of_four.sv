@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One of four words by its index. Combinational.
 //
-// Not words_i[index*WIDTH +: WIDTH]: synthesis takes the product in that for a multiplier. Two LUTs of four inputs a bit: one gives word 0 or
-// 1, or of the upper two which it is, the other chooses by that; from a case synthesis mostly makes three.
+// Not words_i[index*WIDTH +: WIDTH]: synthesis takes the product in that for a multiplier. Two LUTs of four inputs a
+// bit: one gives word 0 or 1, or of the upper two which it is, the other chooses by that; from a case synthesis mostly
+// makes three.
 module quadrille_one_of_four #(
     parameter int WIDTH = 8
 ) (

@@ -1,65 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
-// Takes stamps apart: the PIXELS_PER_CLOCK lowest pixels a clock, lowest x in lane 0; an end entry becomes an end beat without a pixel. The
-// pixels of a homogeneous quad go in their three parts, one a clock (quadrille_pkg: PART_*); they are pixels, valid, with the last.
+// Takes stamps apart: the PIXELS_PER_CLOCK lowest pixels a clock, lowest x in lane 0; an end entry becomes an end beat
+// without a pixel. The pixels of a homogeneous quad go in their three parts, one a clock (quadrille_pkg: PART_*); they
+// are pixels, valid, with the last.
 //
-// Pixels are sent only when a place of fragment_fifo is surely free, since the pipeline behind never waits: free places are counted here,
-// less one for the pixels of a clock, one more for each hand-over (freed_i) and for pixels that were all discarded (discard_i). An end beat
-// takes no place. The head is popped with its last pixel; pixels leave in registers.
+// Pixels are sent only when a place of fragment_fifo is surely free, since the pipeline behind never waits: free places
+// are counted here, less one for the pixels of a clock, one more for each hand-over (freed_i) and for pixels that were
+// all discarded (discard_i). An end beat takes no place. The head is popped with its last pixel; pixels leave in
+// registers.
 module quadrille_pixel_emit #(
-    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
+    localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::FRAGMENT_FIFO_LOG2, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     // Stamp FIFO head
     input logic head_valid_i,
-    input logic head_end_i,
-    input logic head_homogeneous_i,
-    input logic [RING:0] head_ptr_i,
-    input logic [TILE_LOG2-1:0] head_row_i,
-    input logic [TILE-1:0] head_mask_i,
-    input logic [TILE-1:0] head_front_i,
-    input logic [TILE-1:0] head_tie_i,
+    input logic [quadrille_pkg::STAMP_BITS-1:0] head_i,
     output logic pop_o,
-    output logic count_wait_o,  // for performance_counters, else 0: the head has no place for its fragments
     // Places of the fragment FIFO given back
-    input logic freed_i,
-    input logic discard_i,
-    // Pixels: one row of one tile; valid, dx, front and tie of each lane
-    output logic end_o,
-    output logic [1:0] part_o,
+    input logic freed_i, discard_i,
+    // Pixels, and the ring's entry of their tile
     output logic [RING:0] ptr_o,
-    output logic [TILE_LOG2-1:0] row_o,
-    output logic [2*OFFSET_DIGITS-1:0] row_digits_o,  // row_functions multiplies by them: they come out of a register
-    output logic [P-1:0] valid_o,
-    output logic [P*TILE_LOG2-1:0] dx_o,
-    output logic [P-1:0] front_o,
-    output logic [P-1:0] tie_o
+    output logic [quadrille_pkg::PIXELS_BITS-1:0] pixels_o,
+    output logic event_o  // for performance_counters, else 0: the head has no place for its fragments
 );
+  `QUADRILLE_IN(`QUADRILLE_STAMP_T, head)
+  logic sent_end;
+  logic [1:0] sent_part;
+  logic [quadrille_pkg::TILE_LOG2-1:0] sent_row;
+  logic [quadrille_pkg::ROW_DIGIT_BITS-1:0] sent_row_digits;
+  logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::TILE_LOG2-1:0] sent_dx;
+  logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] sent_valid, sent_front, sent_tie;
+
+  assign pixels_o = {sent_end, sent_part, sent_row, sent_row_digits, sent_dx, sent_valid, sent_front, sent_tie};
+
   // Free places less one: negative when there is none, so that one bit of a register decides.
   logic [PLACES+1:0] spare_q;
-  logic [TILE-1:0] sent_q;
-  logic [TILE-1:0] remaining, chosen;
+  logic [TILE-1:0] sent_q, remaining, chosen;
   logic [1:0] part, part_q;  // part_q: the one before, of a homogeneous quad's pixels
   logic may_send, send_part, whole, send;
 
-  assign remaining = head_mask_i & ~sent_q;
+  assign remaining = head.mask & ~sent_q;
   assign may_send = !spare_q[PLACES+1];
-  assign part = head_homogeneous_i ? part_q + 2'd1 : quadrille_pkg::PART_WHOLE;
-  assign whole = !head_homogeneous_i || part == quadrille_pkg::PART_SQUARES;
-  assign send_part = head_valid_i && !head_end_i && may_send;
+  assign part = head.homogeneous ? part_q + 2'd1 : quadrille_pkg::PART_WHOLE;
+  assign whole = !head.homogeneous || part == quadrille_pkg::PART_SQUARES;
+  assign send_part = head_valid_i && !head.end_token && may_send;
   assign send = send_part && whole;
-  assign count_wait_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && head_valid_i && !head_end_i && !may_send;
-  assign pop_o = head_valid_i && (head_end_i || (may_send && whole && remaining == chosen));
+  assign event_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && head_valid_i && !head.end_token && !may_send;
+  assign pop_o = head_valid_i && (head.end_token || (may_send && whole && remaining == chosen));
 
-  // ---- Ranks: bit n of a pixel's P bits says that more than n remaining pixels lie in a range that ends with it ---------------
-  // Ranges double from level to level: up to the pixel's 2^l-th place, the range of the block before is joined to its own.
+  // ---- Ranks: bit n of a pixel's P bits says that more than n remaining pixels lie in a range that ends with it ----
+  // Ranges double from level to level: up to the pixel's 2^l-th place, the range of the block before is joined to its
+  // own.
   for (genvar l = 0; l <= TILE_LOG2; l++) begin : gen_level
     logic [TILE*P-1:0] more;
 
@@ -82,7 +78,7 @@ module quadrille_pixel_emit #(
     end
   endfunction
 
-  // ---- Lanes: lane g has the pixel that has g remaining ones below it -------------------------------------------------------
+  // ---- Lanes: lane g has the pixel that has g remaining ones below it ----------------------------------------------
   for (genvar i = 0; i < TILE; i++) begin : gen_chosen
     if (i == 0) begin : gen_lowest
       assign chosen[i] = remaining[i];
@@ -113,7 +109,8 @@ module quadrille_pixel_emit #(
 
     assign present = g == 0 || own != '0;  // a head that is no end has a pixel left
 
-    // Bit b of the place of a single one. (A loop that adds up dx would read what it writes: Icarus would repeat it for ever.)
+    // Bit b of the place of a single one. (A loop that adds up dx would read what it writes: Icarus would repeat it for
+    // ever.)
     for (genvar b = 0; b < TILE_LOG2; b++) begin : gen_dx
       logic [TILE-1:0] with_bit;
       for (genvar i = 0; i < TILE; i++) begin : gen_place
@@ -123,14 +120,14 @@ module quadrille_pixel_emit #(
     end
 
     always_ff @(posedge clk_i) begin
-      if (!rst_ni) valid_o[g] <= 1'b0;
-      else valid_o[g] <= send && present;
+      if (!rst_ni) sent_valid[g] <= 1'b0;
+      else sent_valid[g] <= send && present;
     end
 
     always_ff @(posedge clk_i) begin
-      dx_o[g*TILE_LOG2+:TILE_LOG2] <= dx;
-      front_o[g] <= (head_front_i & own) != '0;
-      tie_o[g] <= (head_tie_i & own) != '0;
+      sent_dx[g*TILE_LOG2+:TILE_LOG2] <= dx;
+      sent_front[g] <= (head.front & own) != '0;
+      sent_tie[g] <= (head.tie & own) != '0;
     end
   end
 
@@ -139,29 +136,26 @@ module quadrille_pixel_emit #(
       spare_q <= (PLACES + 2)'((1 << PLACES) - 1);
       sent_q <= '0;
       part_q <= quadrille_pkg::PART_WHOLE;
-      part_o <= quadrille_pkg::PART_WHOLE;
-      end_o <= 1'b0;
+      sent_part <= quadrille_pkg::PART_WHOLE;
+      sent_end <= 1'b0;
     end else begin
       spare_q <= spare_q + (PLACES + 2)'(freed_i) + (PLACES + 2)'(discard_i) - (PLACES + 2)'(send);
       if (pop_o) sent_q <= '0;
       else if (send) sent_q <= sent_q | chosen;
       if (send_part) part_q <= whole ? quadrille_pkg::PART_WHOLE : part;
-      part_o <= send_part ? part : quadrille_pkg::PART_WHOLE;
-      end_o <= head_valid_i && head_end_i;
+      sent_part <= send_part ? part : quadrille_pkg::PART_WHOLE;
+      sent_end <= head_valid_i && head.end_token;
     end
   end
 
-  logic [2*OFFSET_DIGITS-1:0] row_digits;
+  logic [quadrille_pkg::ROW_DIGIT_BITS-1:0] row_digits;
 
-  quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (
-      .number_i(head_row_i),
-      .digits_o(row_digits)
-  );
+  quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (.number_i(head.row), .digits_o(row_digits));
 
   always_ff @(posedge clk_i) begin
-    ptr_o <= head_ptr_i;
-    row_o <= head_row_i;
-    row_digits_o <= row_digits;
+    ptr_o <= head.tile_ptr;
+    sent_row <= head.row;
+    sent_row_digits <= row_digits;
   end
 
 `ifndef SYNTHESIS

@@ -1,85 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
-// One pixel a clock, from the row of its tile to its fragment: what a pixel has of its own. pixel_pipeline has PIXELS_PER_CLOCK of these, and
-// what the pixels of a clock have in common: their row, their quad and its data. Never waits.
+// One pixel a clock, from the row of its tile to its fragment: what a pixel has of its own. pixel_pipeline has
+// PIXELS_PER_CLOCK of these, and what the pixels of a clock have in common: their row, their quad and its data. Never
+// waits.
 //
 // Register n is written n clocks after the pixel enters the pipeline. The boundaries between units have the registers
-// quadrille_pkg::DIFF_STAGE to FRAGMENT_STAGE, and signals are named after the boundary that they cross (SPEC.md, Pixel pipeline).
+// quadrille_pkg::DIFF_STAGE to FRAGMENT_STAGE, and signals are named after the boundary that they cross (SPEC.md, Pixel
+// pipeline).
 module quadrille_pixel_lane #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int PE = quadrille_pkg::PORT_EXP_BITS,
-    localparam int N = quadrille_pkg::ATTRIBUTE_SLOTS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int DB = quadrille_pkg::DEPTH_BITS,
-    localparam int ID = quadrille_pkg::QUAD_ID_BITS,
-    localparam int FB = quadrille_pkg::FRAGMENT_BITS,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int OFFSET_DIGITS = TILE_LOG2 / 2 + 1,
-    localparam int NORM_DIGITS = (2 * TILE_LOG2 + 1) / 2 + 1,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
-    localparam int LENGTH2 = quadrille_pkg::LENGTH2_BITS,
-    localparam int AO = quadrille_pkg::ATTR_OUT_BITS,
-    localparam int LIMITS = quadrille_pkg::DEPTH_LIMIT_BITS,
-    localparam int TERMS = quadrille_pkg::BLEND_TERMS,
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, N = quadrille_pkg::ATTRIBUTE_SLOTS,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS, FB = quadrille_pkg::FRAGMENT_BITS,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, VAL = quadrille_pkg::VAL_BITS, QVAL = quadrille_pkg::QVAL_BITS,
     localparam int SETS = 3 + N
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
-    // Draw state
-    input logic hold_i,  // skip bit 4
-    input logic depth_on_i,
-    input logic [3:0] attributes_i,
+    input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     // The pixel, at the pipeline's input. One of a homogeneous quad is valid with its last part
     input logic valid_i,
-    input logic [TILE_LOG2-1:0] row_i,
-    input logic [TILE_LOG2-1:0] dx_i,
-    input logic front_i,
-    input logic tie_i,
+    input logic [TILE_LOG2-1:0] row_i, dx_i,
+    input logic front_i, tie_i,
     // Its row of the tile, a clock later
-    input logic [6*VAL-1:0] lin_row_i,
-    input logic [6*GRAD-1:0] lin_gx_i,
-    input logic [4*QVAL-1:0] quad_row_i,
-    input logic [4*QGRAD-1:0] quad_gx_i,
-    input logic [4*QCURV-1:0] quad_q_i,
-    // Its part, in step with the values of the functions; a clock later squares_i, the last part of a homogeneous pixel, and length2_i
+    input logic [quadrille_pkg::ROW_BITS-1:0] line_i,
+    // Its part, in step with the values of the functions; a clock later squares_i, the last part of a homogeneous pixel
     input logic [1:0] part_i,
     input logic squares_i,
-    input logic [6*LENGTH2-1:0] length2_i,
-    // Of its quad, each where it is used
-    input logic norm_plane_i,  // two registers before NORM_STAGE: a plane_quad
-    input logic [3:0] product_k_neg_i,
-    input logic [4*PE-1:0] product_k_exp_i,
-    input logic [4*S-1:0] product_k_sig_i,
-    input logic [4*PE-1:0] override_k_exp_i,
-    input logic [4*S-1:0] override_k_sig_i,
-    input logic [TERMS-1:0] blend_neg_i,
-    input logic [TERMS*PE-1:0] blend_exp_i,
-    input logic [TERMS*S-1:0] blend_sig_i,
-    input logic [N*AO-1:0] base_attr_i,
-    input logic [DB:0] base_depth_i,
-    input logic [LIMITS-1:0] base_limits_i,
-    input logic [ID-1:0] output_id_i,
-    input logic output_hull_i,
-    input logic output_homogeneous_i,
+    // Of its quad, each where it is used; of its tile and row, where the output is
+    input logic [quadrille_pkg::TERMS_BITS-1:0] terms_i,
     input logic [V-TILE_LOG2-1:0] output_tile_x_i,
     input logic [V-1:0] output_y_i,
     // Fragment
     output logic [quadrille_pkg::LATENCY-1:0] valid_o,  // a pixel is in register n, drawn or discarded
-    output logic count_area_o,  // at RATIO_STAGE: the weights are areas
-    output logic count_norm_o,  // for performance_counters, else 0: the numbers of this pixel are taken on
+    // for performance_counters, else 0: numbers are taken on; at RATIO_STAGE: the weights are areas
+    output logic [1:0] events_o,
     output logic fragment_valid_o,
     output logic [FB-1:0] fragment_o  // zero when there is none
 );
+  `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
+  `QUADRILLE_IN(`QUADRILLE_TERMS_T, terms)
+
   // Registers at the boundaries
-  localparam int DIFF = quadrille_pkg::DIFF_STAGE;
-  localparam int NORM = quadrille_pkg::NORM_STAGE;
-  localparam int RATIO = quadrille_pkg::RATIO_STAGE;
+  localparam int DIFF = quadrille_pkg::DIFF_STAGE, NORM = quadrille_pkg::NORM_STAGE, RATIO = quadrille_pkg::RATIO_STAGE;
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
   logic [LAST:0] valid_q;
@@ -91,14 +54,11 @@ module quadrille_pixel_lane #(
     else valid_q <= {valid_q[LAST-1:0], valid_i};
   end
 
-  // ---- Side band: column, facing, tie; from the norm boundary on the class with them ---------------------------------------
-  localparam int CLASS = quadrille_pkg::CLASS_BITS;
-  localparam int FLAGS = quadrille_pkg::CLASS_FLAGS;
-  localparam int TAG = TILE_LOG2 + 2;
+  // ---- Side band: column, facing, tie; from the norm boundary on the class with them -------------------------------
+  localparam int CLASS = quadrille_pkg::CLASS_BITS, FLAGS = quadrille_pkg::CLASS_FLAGS, TAG = TILE_LOG2 + 2;
   typedef struct packed {
     logic [TILE_LOG2-1:0] dx;
-    logic front;
-    logic tie;
+    logic front, tie;
     logic [FLAGS-1:0] flags;  // of the class
   } meta_t;
   logic [TAG-1:0] diff_tag, norm_tag;
@@ -109,131 +69,54 @@ module quadrille_pixel_lane #(
   meta_t output_meta;
 
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(DIFF + 1)) u_diff_tag (
-      .clk_i,
-      .data_i({dx_i, front_i, tie_i}),
-      .data_o(diff_tag)
+      .clk_i, .data_i({dx_i, front_i, tie_i}), .data_o(diff_tag)
   );
   quadrille_delay_line #(.WIDTH(TAG), .DEPTH(NORM - DIFF)) u_norm_tag (.clk_i, .data_i(diff_tag), .data_o(norm_tag));
   quadrille_delay_line #(.WIDTH(TAG + FLAGS), .DEPTH(LAST - 1 - NORM)) u_output_meta (
-      .clk_i,
-      .data_i({norm_tag, norm_class[CLASS-1-:FLAGS]}),
-      .data_o(output_meta)
+      .clk_i, .data_i({norm_tag, norm_class[CLASS-1-:FLAGS]}), .data_o(output_meta)
   );
   quadrille_delay_line #(.WIDTH(CLASS + 6), .DEPTH(RATIO - NORM)) u_ratio_class (
-      .clk_i,
-      .data_i({norm_class, norm_d_neg}),
-      .data_o({ratio_class, ratio_d_neg})
+      .clk_i, .data_i({norm_class, norm_d_neg}), .data_o({ratio_class, ratio_d_neg})
   );
 
   if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     quadrille_delay_line #(.WIDTH(1), .DEPTH(RATIO - NORM)) u_behind_diagonal (
-        .clk_i,
-        .data_i(norm_behind_diagonal),
-        .data_o(ratio_behind_diagonal)
+        .clk_i, .data_i(norm_behind_diagonal), .data_o(ratio_behind_diagonal)
     );
     quadrille_delay_line #(.WIDTH(1), .DEPTH(RATIO - NORM + 2)) u_plane (
-        .clk_i,
-        .data_i(norm_plane_i),
-        .data_o(ratio_plane)
+        .clk_i, .data_i(terms.norm_plane), .data_o(ratio_plane)
     );
   end else begin : gen_no_plane
     assign ratio_plane = 1'b0;
     assign ratio_behind_diagonal = 1'b0;
   end
 
-  // ---- Exact functions at the pixel --------------------------------------------------------------------------------------
-  logic [6*VAL-1:0] a, diff_a;
-  logic [4*QVAL-1:0] quad, diff_r2;  // four quadratic functions of one part
+  // ---- Exact functions at the pixel --------------------------------------------------------------------------------
+  logic [6*VAL-1:0] diff_a;
+  logic [4*QVAL-1:0] diff_r2;
   logic [6*QVAL-1:0] diff_d;
-  logic [2*OFFSET_DIGITS-1:0] dx_digits;
-  logic [2*NORM_DIGITS-1:0] norm_digits;
 
-  quadrille_offset_digits u_offset (
-      .clk_i,
-      .row_i,
-      .dx_i,
-      .dx_digits_o(dx_digits),
-      .norm_digits_o(norm_digits)
+  quadrille_pixel_functions u_functions (
+      .clk_i, .row_i, .dx_i, .line_i, .part_i, .squares_i, .length2_i(terms.length2), .a_o(diff_a), .d_o(diff_d),
+      .r2_o(diff_r2)
   );
 
-  for (genvar g = 0; g < 6; g++) begin : gen_linear
-    quadrille_forward_difference_column #(
-        .VALUE_BITS(VAL),
-        .GRAD_BITS(GRAD),
-        .QUADRATIC(1'b0)
-    ) u_column (
-        .clk_i,
-        .dx_digits_i(dx_digits),
-        .norm_digits_i(norm_digits),
-        .row_i(lin_row_i[g*VAL+:VAL]),
-        .gx_i(lin_gx_i[g*GRAD+:GRAD]),
-        .q_i(1'b0),
-        .value_o(a[g*VAL+:VAL])
-    );
-  end
+  // ---- Significand numbers and class -------------------------------------------------------------------------------
+  // Of a pixel on a corner the weights are the corner's: nothing between here and weight_factors is looked at. Its
+  // numbers, and all of what is no pixel, as the first parts of a homogeneous one, are not taken on, so that the
+  // operands of everything up to the weights stay as they are. Of a plane_quad the weights are areas: A alone is taken
+  // on.
+  logic corner, taken_on, norm_active_q, distance_active_q, class_active_q;
 
-  for (genvar g = 0; g < 4; g++) begin : gen_quadratic
-    quadrille_forward_difference_column #(
-        .VALUE_BITS(QVAL),
-        .GRAD_BITS(QGRAD),
-        .CURV_BITS(QCURV)
-    ) u_column (
-        .clk_i,
-        .dx_digits_i(dx_digits),
-        .norm_digits_i(norm_digits),
-        .row_i(quad_row_i[g*QVAL+:QVAL]),
-        .gx_i(quad_gx_i[g*QGRAD+:QGRAD]),
-        .q_i(quad_q_i[g*QCURV+:QCURV]),
-        .value_o(quad[g*QVAL+:QVAL])
-    );
-  end
-
-  // The dot products: of an ordinary quad from the squared distances, of a homogeneous one those of the parts before.
-  // Both come to law_of_cosines a clock after the squared distances.
-  logic [6*QVAL-1:0] dot_q;
-
-  always_ff @(posedge clk_i) begin
-    if (part_i == quadrille_pkg::PART_EDGES) dot_q[0+:4*QVAL] <= quad;
-    if (part_i == quadrille_pkg::PART_DIAGONALS) dot_q[4*QVAL+:2*QVAL] <= quad[0+:2*QVAL];
-  end
-
-  for (genvar g = 0; g < 6; g++) begin : gen_dot
-    localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))};
-    localparam int J = {30'd0, quadrille_pkg::pair_second(4'(g))};
-
-    quadrille_law_of_cosines u_dot (
-        .clk_i,
-        .r2_first_i(quad[I*QVAL+:QVAL]),
-        .r2_second_i(quad[J*QVAL+:QVAL]),
-        .homogeneous_i(squares_i),
-        .exact_i(dot_q[g*QVAL+:QVAL]),
-        .length2_i(length2_i[g*LENGTH2+:LENGTH2]),
-        .d_o(diff_d[g*QVAL+:QVAL])
-    );
-  end
-
-  quadrille_delay_line #(.WIDTH(6 * VAL + 4 * QVAL), .DEPTH(quadrille_pkg::LAW_OF_COSINES_STAGES)) u_diff (
-      .clk_i,
-      .data_i({a, quad}),
-      .data_o({diff_a, diff_r2})
-  );
-
-  // ---- Significand numbers and class -------------------------------------------------------------------------------------
-  // Of a pixel on a corner the weights are the corner's: nothing between here and weight_factors is looked at. Its numbers, and all of
-  // what is no pixel, as the first parts of a homogeneous one, are not taken on, so that the operands of everything up to the weights
-  // stay as they are. Of a plane_quad the weights are areas: A alone is taken on.
-  logic corner, taken_on;
-  logic norm_active_q, distance_active_q, class_active_q;
-
-  assign taken_on = !hold_i || (valid_q[NORM-2] && !corner);
+  assign taken_on = !state.skip[4] || (valid_q[NORM-2] && !corner);
 
   always_ff @(posedge clk_i) begin
     norm_active_q <= taken_on;
-    distance_active_q <= taken_on && !norm_plane_i;
-    class_active_q <= !hold_i || valid_q[NORM-2];
+    distance_active_q <= taken_on && !terms.norm_plane;
+    class_active_q <= !state.skip[4] || valid_q[NORM-2];
   end
 
-  assign count_norm_o = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && distance_active_q;
+  assign events_o[1] = quadrille_pkg::PERFORMANCE_COUNTERS != 0 && distance_active_q;
 
   logic [5:0] norm_a_neg;
   logic [6*E-1:0] norm_a_exp, norm_d_exp;
@@ -243,129 +126,74 @@ module quadrille_pixel_lane #(
   logic [4*S-1:0] norm_r2_sig;
 
   for (genvar g = 0; g < 6; g++) begin : gen_norm
-    quadrille_normalise #(
-        .WIDTH(VAL),
-        .BIAS(-quadrille_pkg::QDROP)
-    ) u_a (
-        .clk_i,
-        .active_i(norm_active_q),
-        .value_i(diff_a[g*VAL+:VAL]),
-        .neg_o(norm_a_neg[g]),
-        .exp_o(norm_a_exp[g*E+:E]),
-        .sig_o(norm_a_sig[g*S+:S])
+    quadrille_normalise #(.WIDTH(VAL), .BIAS(-quadrille_pkg::QDROP)) u_a (
+        .clk_i, .active_i(norm_active_q), .value_i(diff_a[g*VAL+:VAL]), .neg_o(norm_a_neg[g]),
+        .exp_o(norm_a_exp[g*E+:E]), .sig_o(norm_a_sig[g*S+:S])
     );
 
     quadrille_normalise #(.WIDTH(QVAL)) u_d (
-        .clk_i,
-        .active_i(distance_active_q),
-        .value_i(diff_d[g*QVAL+:QVAL]),
-        .neg_o(norm_d_neg[g]),
-        .exp_o(norm_d_exp[g*E+:E]),
-        .sig_o(norm_d_sig[g*S+:S])
+        .clk_i, .active_i(distance_active_q), .value_i(diff_d[g*QVAL+:QVAL]), .neg_o(norm_d_neg[g]),
+        .exp_o(norm_d_exp[g*E+:E]), .sig_o(norm_d_sig[g*S+:S])
     );
   end
 
   for (genvar g = 0; g < 4; g++) begin : gen_norm_r2
-    quadrille_normalise #(
-        .WIDTH(QVAL),
-        .CLAMP(1'b1)
-    ) u_r2 (
-        .clk_i,
-        .active_i(distance_active_q),
-        .value_i(diff_r2[g*QVAL+:QVAL]),
-        .neg_o(norm_r2_neg[g]),
-        .exp_o(norm_r2_exp[g*E+:E]),
-        .sig_o(norm_r2_sig[g*S+:S])
+    quadrille_normalise #(.WIDTH(QVAL), .CLAMP(1'b1)) u_r2 (
+        .clk_i, .active_i(distance_active_q), .value_i(diff_r2[g*QVAL+:QVAL]), .neg_o(norm_r2_neg[g]),
+        .exp_o(norm_r2_exp[g*E+:E]), .sig_o(norm_r2_sig[g*S+:S])
     );
   end
 
   quadrille_singular_class u_class (
-      .clk_i,
-      .active_i(class_active_q),
-      .a_i(diff_a[0+:4*VAL]),
-      .d_i(diff_d[0+:4*QVAL]),
-      .r2_i(diff_r2),
-      .corner_o(corner),
-      .class_o(norm_class)
+      .clk_i, .active_i(class_active_q), .a_i(diff_a[0+:4*VAL]), .d_i(diff_d[0+:4*QVAL]), .r2_i(diff_r2),
+      .corner_o(corner), .class_o(norm_class)
   );
 
   // Inside a convex quad the edge functions have one sign, and E20 has it too on the side of corner 1.
   assign norm_behind_diagonal = norm_a_neg[4] != (norm_a_neg[3:0] != '0);
 
-  // ---- r_i, the corners' distances ------------------------------------------------------------------------------------------------------
+  // ---- r_i, the corners' distances ---------------------------------------------------------------------------------
   logic [4*E-1:0] root_exp;
   logic [4*S-1:0] root_sig;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sqrt
     quadrille_sqrt u_sqrt (
-        .clk_i,
-        .exp_i(norm_r2_exp[g*E+:E]),
-        .sig_i(norm_r2_sig[g*S+:S]),
-        .exp_o(root_exp[g*E+:E]),
+        .clk_i, .exp_i(norm_r2_exp[g*E+:E]), .sig_i(norm_r2_sig[g*S+:S]), .exp_o(root_exp[g*E+:E]),
         .sig_o(root_sig[g*S+:S])
     );
   end
 
-  // ---- Ratios and weights -------------------------------------------------------------------------------------------------
+  // ---- Ratios and weights ------------------------------------------------------------------------------------------
   logic [6*E-1:0] ratio_u_exp, ratio_v_exp;
   logic [6*S-1:0] ratio_u_sig, ratio_v_sig;
   logic [4*E-1:0] m_exp;
   logic [4*S-1:0] m_sig;
 
   quadrille_mean_value_ratios u_ratios (
-      .clk_i,
-      .a_exp_i(norm_a_exp),
-      .a_sig_i(norm_a_sig),
-      .d_exp_i(norm_d_exp),
-      .d_sig_i(norm_d_sig),
-      .root_exp_i(root_exp),
-      .root_sig_i(root_sig),
-      .u_exp_o(ratio_u_exp),
-      .u_sig_o(ratio_u_sig),
-      .v_exp_o(ratio_v_exp),
+      .clk_i, .a_exp_i(norm_a_exp), .a_sig_i(norm_a_sig), .d_exp_i(norm_d_exp), .d_sig_i(norm_d_sig),
+      .root_exp_i(root_exp), .root_sig_i(root_sig), .u_exp_o(ratio_u_exp), .u_sig_o(ratio_u_sig), .v_exp_o(ratio_v_exp),
       .v_sig_o(ratio_v_sig)
   );
 
   quadrille_mean_value_weights u_weights (
-      .clk_i,
-      .root_exp_i(root_exp),
-      .root_sig_i(root_sig),
-      .u_exp_i(ratio_u_exp),
-      .u_sig_i(ratio_u_sig),
-      .v_exp_i(ratio_v_exp),
-      .v_sig_i(ratio_v_sig),
-      .d_neg_i(ratio_d_neg),
-      .class_i(ratio_class),
-      .plane_i(ratio_plane),
-      .behind_diagonal_i(ratio_behind_diagonal),
-      .k_neg_i(product_k_neg_i),
-      .k_exp_i(product_k_exp_i),
-      .k_sig_i(product_k_sig_i),
-      .override_k_exp_i,
-      .override_k_sig_i,
-      .count_area_o,
-      .m_exp_o(m_exp),
-      .m_sig_o(m_sig)
+      .clk_i, .root_exp_i(root_exp), .root_sig_i(root_sig), .u_exp_i(ratio_u_exp), .u_sig_i(ratio_u_sig),
+      .v_exp_i(ratio_v_exp), .v_sig_i(ratio_v_sig), .d_neg_i(ratio_d_neg), .class_i(ratio_class), .plane_i(ratio_plane),
+      .behind_diagonal_i(ratio_behind_diagonal), .k_neg_i(terms.product_k_neg), .k_exp_i(terms.product_k_exp),
+      .k_sig_i(terms.product_k_sig), .override_k_exp_i(terms.override_k_exp), .override_k_sig_i(terms.override_k_sig),
+      .count_area_o(events_o[0]), .m_exp_o(m_exp), .m_sig_o(m_sig)
   );
 
-  // ---- Sums. Sets: 0 k_eff, 1 W, 2 Z, 3.. attributes ------------------------------------------------------
+  // ---- Sums. Sets: 0 k_eff, 1 W, 2 Z, 3.. attributes ---------------------------------------------------------------
   logic [SETS-1:0] sum_neg;
   logic [SETS*E-1:0] sum_exp;
   logic [SETS*S-1:0] sum_sig;
 
   quadrille_interpolate u_interpolate (
-      .clk_i,
-      .m_exp_i(m_exp),
-      .m_sig_i(m_sig),
-      .term_neg_i(blend_neg_i),
-      .term_exp_i(blend_exp_i),
-      .term_sig_i(blend_sig_i),
-      .sum_neg_o(sum_neg),
-      .sum_exp_o(sum_exp),
-      .sum_sig_o(sum_sig)
+      .clk_i, .m_exp_i(m_exp), .m_sig_i(m_sig), .term_neg_i(terms.blend_neg), .term_exp_i(terms.blend_exp),
+      .term_sig_i(terms.blend_sig), .sum_neg_o(sum_neg), .sum_exp_o(sum_exp), .sum_sig_o(sum_sig)
   );
 
-  // ---- Reciprocals, the numerators wait -----------------------------------------------------------------------------------
+  // ---- Reciprocals, the numerators wait ----------------------------------------------------------------------------
   localparam int NUMS = 1 + N;  // Z and the attributes
   logic rk_neg, rw_neg;
   logic [E-1:0] rk_exp, rw_exp;
@@ -375,65 +203,32 @@ module quadrille_pixel_lane #(
   logic [NUMS*S-1:0] num_sig;
 
   quadrille_reciprocal u_reciprocal_k (
-      .clk_i,
-      .neg_i(sum_neg[0]),
-      .exp_i(sum_exp[0+:E]),
-      .sig_i(sum_sig[0+:S]),
-      .neg_o(rk_neg),
-      .exp_o(rk_exp),
+      .clk_i, .neg_i(sum_neg[0]), .exp_i(sum_exp[0+:E]), .sig_i(sum_sig[0+:S]), .neg_o(rk_neg), .exp_o(rk_exp),
       .sig_o(rk_sig)
   );
 
   quadrille_reciprocal u_reciprocal_w (
-      .clk_i,
-      .neg_i(sum_neg[1]),
-      .exp_i(sum_exp[E+:E]),
-      .sig_i(sum_sig[S+:S]),
-      .neg_o(rw_neg),
-      .exp_o(rw_exp),
+      .clk_i, .neg_i(sum_neg[1]), .exp_i(sum_exp[E+:E]), .sig_i(sum_sig[S+:S]), .neg_o(rw_neg), .exp_o(rw_exp),
       .sig_o(rw_sig)
   );
 
   for (genvar g = 0; g < NUMS; g++) begin : gen_numerator
     quadrille_delay_line #(.WIDTH(1 + E + S), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES)) u_delay (
-        .clk_i,
-        .data_i({sum_neg[2+g], sum_exp[(2+g)*E+:E], sum_sig[(2+g)*S+:S]}),
+        .clk_i, .data_i({sum_neg[2+g], sum_exp[(2+g)*E+:E], sum_sig[(2+g)*S+:S]}),
         .data_o({num_neg[g], num_exp[g*E+:E], num_sig[g*S+:S]})
     );
   end
 
-  // ---- Quotients, output --------------------------------------------------------------------------------------------------
+  // ---- Quotients, output -------------------------------------------------------------------------------------------
   quadrille_fragment_output u_output (
-      .clk_i,
-      .rst_ni,
-      .depth_on_i,
-      .attributes_i,
-      .attr_neg_i(num_neg[NUMS-1:1]),
-      .attr_exp_i(num_exp[NUMS*E-1:E]),
-      .attr_sig_i(num_sig[NUMS*S-1:S]),
-      .z_neg_i(num_neg[0]),
-      .z_exp_i(num_exp[E-1:0]),
-      .z_sig_i(num_sig[S-1:0]),
-      .rk_neg_i(rk_neg),
-      .rk_exp_i(rk_exp),
-      .rk_sig_i(rk_sig),
-      .rw_neg_i(rw_neg),
-      .rw_exp_i(rw_exp),
-      .rw_sig_i(rw_sig),
-      .base_attr_i,
-      .base_depth_i,
-      .depth_limits_i(base_limits_i),
-      .valid_i(valid_q[LAST-1]),
-      .id_i(output_id_i),
-      .hull_i(output_hull_i),
-      .homogeneous_i(output_homogeneous_i),
-      .x_i({output_tile_x_i, output_meta.dx}),
-      .y_i(output_y_i),
-      .front_i(output_meta.front),
-      .tie_i(output_meta.tie),
-      .flags_i(output_meta.flags),
-      .valid_o(fragment_valid_o),
-      .fragment_o
+      .clk_i, .rst_ni, .depth_on_i(state.depth), .attributes_i(state.attributes), .attr_neg_i(num_neg[NUMS-1:1]),
+      .attr_exp_i(num_exp[NUMS*E-1:E]), .attr_sig_i(num_sig[NUMS*S-1:S]), .z_neg_i(num_neg[0]),
+      .z_exp_i(num_exp[E-1:0]), .z_sig_i(num_sig[S-1:0]), .rk_neg_i(rk_neg), .rk_exp_i(rk_exp), .rk_sig_i(rk_sig),
+      .rw_neg_i(rw_neg), .rw_exp_i(rw_exp), .rw_sig_i(rw_sig), .base_attr_i(terms.base_attr),
+      .base_depth_i(terms.base_depth), .depth_limits_i(terms.base_limits), .valid_i(valid_q[LAST-1]),
+      .id_i(terms.output_id), .hull_i(terms.output_hull), .homogeneous_i(terms.output_homogeneous),
+      .x_i({output_tile_x_i, output_meta.dx}), .y_i(output_y_i), .front_i(output_meta.front), .tie_i(output_meta.tie),
+      .flags_i(output_meta.flags), .valid_o(fragment_valid_o), .fragment_o
   );
 
   logic unused;
@@ -441,14 +236,11 @@ module quadrille_pixel_lane #(
 
 `ifndef SYNTHESIS
   // A regular pixel's weights are near 1.
-  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE;
-  localparam int OVERRIDES = quadrille_pkg::CLASS_OVERRIDES;
+  localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE, OVERRIDES = quadrille_pkg::CLASS_OVERRIDES;
   logic [OVERRIDES-1:0] weight_overrides;
 
   quadrille_delay_line #(.WIDTH(OVERRIDES), .DEPTH(WEIGHT - NORM)) u_weight_overrides (
-      .clk_i,
-      .data_i(norm_class[CLASS-1-:OVERRIDES]),
-      .data_o(weight_overrides)
+      .clk_i, .data_i(norm_class[CLASS-1-:OVERRIDES]), .data_o(weight_overrides)
   );
 
   for (genvar g = 0; g < 4; g++) begin : gen_range
@@ -464,6 +256,9 @@ module quadrille_pixel_lane #(
     end
   end
 
+  logic [quadrille_pkg::CLASS_KINDS-1:0] kinds;
+  assign kinds = norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS];
+
   // Zero when not valid.
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
@@ -472,7 +267,7 @@ module quadrille_pixel_lane #(
           "the fragment is zero without valid")
       `QUADRILLE_ASSERT(assert_fragment_has_pixel, !fragment_valid_o || valid_q[LAST], "a fragment comes of a pixel")
       `QUADRILLE_ASSERT(assert_one_class,
-          !valid_q[NORM] || ((norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] & (norm_class[CLASS-1-:quadrille_pkg::CLASS_KINDS] - quadrille_pkg::CLASS_KINDS'(1))) == '0),
+          !valid_q[NORM] || (kinds & (kinds - quadrille_pkg::CLASS_KINDS'(1))) == '0,
           "a pixel is of one singular kind at most")
     end
   end

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small unsigned number in radix 4 with the digits -1, 0, 1, 2 (code 3 is -1; the highest digit is never -1). Combinational.
+// A small unsigned number in radix 4 with the digits -1, 0, 1, 2 (code 3 is -1; the highest digit is never -1).
+// Combinational.
 //
 // The digits that small_multiply takes. A carry runs from digit to digit: 3 is 4 - 1, and 3 + 1 is 4.
 module quadrille_radix4_digits #(

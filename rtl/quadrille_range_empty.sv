@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Judges a quad by its vertices while they come in: is there no pixel centre along one axis, between its least and greatest coordinate and
-// inside the scissor? Registers: there in the clock after the fourth beat, until the next quad's first.
+// Judges a quad by its vertices while they come in: is there no pixel centre along one axis, between its least and
+// greatest coordinate and inside the scissor? Registers: there in the clock after the fourth beat, until the next
+// quad's first.
 //
-// Ordinary quad: none if every coordinate is before the scissor's first pixel, or every one behind its last, or all lie between two
-// neighbouring centres. Homogeneous quad, or any: none if the scissor has none. bounding_range gives the pixels when there are some.
+// Ordinary quad: none if every coordinate is before the scissor's first pixel, or every one behind its last, or all lie
+// between two neighbouring centres. Homogeneous quad, or any: none if the scissor has none. bounding_range gives the
+// pixels when there are some.
 module quadrille_range_empty #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS
+    localparam int T = quadrille_pkg::T_BITS, V = quadrille_pkg::VIEWPORT_BITS
 ) (
-    input logic clk_i,
-    input logic accept_i,
-    input logic first_i,
+    input logic clk_i, accept_i, first_i,
     input logic [T-1:0] coordinate_i,
     input logic [T-1:0] low_i,  // least coordinate of the beats before
-    input logic [V:0] scissor0_i,
-    input logic [V:0] scissor1_i,
+    input logic [V:0] scissor0_i, scissor1_i,
     input logic ordinary_i,  // all beats so far have W = ONE, a clock after the beat
     output logic empty_o
 );

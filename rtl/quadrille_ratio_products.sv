@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The products that the three ratios sqrt(q_far / q_near) are made of: z = u_near u_far and w = v_far u_near of each, and which of the
-// pair's u and v goes by itself (own; root_ratio). On two edges four of the six multipliers form the products of the denominators N
-// instead (denominator_operands). Latency 1 + PRODUCT_STAGES: operands, products; one pixel per clock.
+// The products that the three ratios sqrt(q_far / q_near) are made of: z = u_near u_far and w = v_far u_near of each,
+// and which of the pair's u and v goes by itself (own; root_ratio). On two edges four of the six multipliers form the
+// products of the denominators N instead (denominator_operands). Latency 1 + PRODUCT_STAGES: operands, products; one
+// pixel per clock.
 //
-// Ratios 0, 1, 2: pairs 23 / 01, 12 / 30, 13 / 20. The terms of q = r r' +- D cancel where D < 0 on an edge, where D >= 0 on a diagonal.
-// Products 0 to 2 are z, 3 to 5 w; the terms of N are 0 to 3, their ranks come one clock before them. Numbers are {exp, sig}.
+// Ratios 0, 1, 2: pairs 23 / 01, 12 / 30, 13 / 20. The terms of q = r r' +- D cancel where D < 0 on an edge, where D >=
+// 0 on a diagonal. Products 0 to 2 are z, 3 to 5 w; the terms of N are 0 to 3, their ranks come one clock before them.
+// Numbers are {exp, sig}.
 module quadrille_ratio_products #(
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int E = quadrille_pkg::EXP_BITS,
-    localparam int TERM = quadrille_pkg::TERM_BITS,
-    localparam int RANK = quadrille_pkg::RANK_BITS,
-    localparam int F = E + S
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, E = quadrille_pkg::EXP_BITS, TERM = quadrille_pkg::TERM_BITS,
+    localparam int RANK = quadrille_pkg::RANK_BITS, F = E + S
 ) (
     input logic clk_i,
     input logic [6*E-1:0] u_exp_i,
@@ -20,12 +19,10 @@ module quadrille_ratio_products #(
     input logic [5:0] d_neg_i,
     // Of two edges
     input logic two_edge_i,
-    input logic [4*F-1:0] edge_root_i,
-    input logic [4*F-1:0] edge_k_i,
+    input logic [4*F-1:0] edge_root_i, edge_k_i,
     input logic [3:0] edge_neg_i,
     // Of the ratios
-    output logic [2:0] near_cancels_o,
-    output logic [2:0] far_cancels_o,
+    output logic [2:0] near_cancels_o, far_cancels_o,
     output logic [3*F-1:0] own_o,
     output logic [6*F-1:0] product_o,
     // Of the denominators
@@ -33,7 +30,7 @@ module quadrille_ratio_products #(
     output logic [3:0] neg_o,
     output logic [4*TERM-1:0] term_o
 );
-  // ---- Operands ----------------------------------------------------------------------------------------------------------------
+  // ---- Operands -----------------------------------------------------------------------------------------------------
   logic [6*F-1:0] operand_a_q, operand_b_q;  // z0, z1, z2, w0, w1, w2
   logic [3*F-1:0] own_q;
   logic [2:0] near_cancels_q, far_cancels_q;
@@ -75,36 +72,24 @@ module quadrille_ratio_products #(
     end
   end
 
-  // ---- Products ----------------------------------------------------------------------------------------------------------------
+  // ---- Products ----------------------------------------------------------------------------------------------------
   for (genvar g = 0; g < 4; g++) begin : gen_shared_product
     quadrille_fp_product u_product (
-        .clk_i,
-        .a_exp_i(operand_a_q[g*F+S+:E]),
-        .a_sig_i(operand_a_q[g*F+:S]),
-        .b_exp_i(operand_b_q[g*F+S+:E]),
-        .b_sig_i(operand_b_q[g*F+:S]),
-        .exp_o(product_o[g*F+S+:E]),
-        .sig_o(product_o[g*F+:S]),
-        .rank_o(rank_o[g*RANK+:RANK]),
-        .term_o(term_o[g*TERM+:TERM])
+        .clk_i, .a_exp_i(operand_a_q[g*F+S+:E]), .a_sig_i(operand_a_q[g*F+:S]), .b_exp_i(operand_b_q[g*F+S+:E]),
+        .b_sig_i(operand_b_q[g*F+:S]), .exp_o(product_o[g*F+S+:E]), .sig_o(product_o[g*F+:S]),
+        .rank_o(rank_o[g*RANK+:RANK]), .term_o(term_o[g*TERM+:TERM])
     );
   end
 
   for (genvar g = 4; g < 6; g++) begin : gen_product
     quadrille_fp_multiply u_product (
-        .clk_i,
-        .a_exp_i(operand_a_q[g*F+S+:E]),
-        .a_sig_i(operand_a_q[g*F+:S]),
-        .b_exp_i(operand_b_q[g*F+S+:E]),
-        .b_sig_i(operand_b_q[g*F+:S]),
-        .exp_o(product_o[g*F+S+:E]),
-        .sig_o(product_o[g*F+:S])
+        .clk_i, .a_exp_i(operand_a_q[g*F+S+:E]), .a_sig_i(operand_a_q[g*F+:S]), .b_exp_i(operand_b_q[g*F+S+:E]),
+        .b_sig_i(operand_b_q[g*F+:S]), .exp_o(product_o[g*F+S+:E]), .sig_o(product_o[g*F+:S])
     );
   end
 
   quadrille_delay_line #(.WIDTH(3 * F + 10), .DEPTH(quadrille_pkg::PRODUCT_STAGES)) u_delay (
-      .clk_i,
-      .data_i({own_q, near_cancels_q, far_cancels_q, neg_q}),
+      .clk_i, .data_i({own_q, near_cancels_q, far_cancels_q, neg_q}),
       .data_o({own_o, near_cancels_o, far_cancels_o, neg_o})
   );
 endmodule

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two vertices of a function, of quad_setup or tile_context (quadrille_pkg: pair_first, pair_second). Combinational.
+// The two vertices of a function, of quad_setup or tile_context (quadrille_pkg: pair_first, pair_second).
+// Combinational.
 module quadrille_setup_pair #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS
 ) (
     input logic [3:0] function_i,
-    input logic [4*T-1:0] x_i,
-    input logic [4*T-1:0] y_i,
+    input logic [4*T-1:0] x_i, y_i,
     input logic [4*W-1:0] w_i,
-    output logic [T-1:0] xi_o,
-    output logic [T-1:0] yi_o,
+    output logic [T-1:0] xi_o, yi_o,
     output logic [W-1:0] wi_o,
-    output logic [T-1:0] xj_o,
-    output logic [T-1:0] yj_o,
+    output logic [T-1:0] xj_o, yj_o,
     output logic [W-1:0] wj_o
 );
   localparam int VERTEX = 2 * T + W;
@@ -23,14 +20,10 @@ module quadrille_setup_pair #(
   end
 
   quadrille_one_of_four #(.WIDTH(VERTEX)) u_first (
-      .words_i(vertices),
-      .index_i(quadrille_pkg::pair_first(function_i)),
-      .word_o({xi_o, yi_o, wi_o})
+      .words_i(vertices), .index_i(quadrille_pkg::pair_first(function_i)), .word_o({xi_o, yi_o, wi_o})
   );
 
   quadrille_one_of_four #(.WIDTH(VERTEX)) u_second (
-      .words_i(vertices),
-      .index_i(quadrille_pkg::pair_second(function_i)),
-      .word_o({xj_o, yj_o, wj_o})
+      .words_i(vertices), .index_i(quadrille_pkg::pair_second(function_i)), .word_o({xj_o, yj_o, wj_o})
   );
 endmodule

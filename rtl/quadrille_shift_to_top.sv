@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves the highest one of a word to its top bit, by halving, and says by how much. Combinational.
 //
-// Levels FIRST down to LAST: if the 2^level bits at the top are zero, the word moves up by 2^level and that bit of the count is set.
-// With all levels from $clog2(WIDTH)-1 to 0 the count is the number of leading zeros, and the top bit of the result says whether the
-// word is not zero; the count of a zero word means nothing. Two modules in a row can share the levels.
+// Levels FIRST down to LAST: if the 2^level bits at the top are zero, the word moves up by 2^level and that bit of the
+// count is set. With all levels from $clog2(WIDTH)-1 to 0 the count is the number of leading zeros, and the top bit of
+// the result says whether the word is not zero; the count of a zero word means nothing. Two modules in a row can share
+// the levels.
 module quadrille_shift_to_top #(
     parameter int WIDTH = 32,
     parameter int FIRST = $clog2(WIDTH) - 1,

@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, whether an edge turns
-// backward. Latency NORMALISE_STAGES, one pixel per clock.
+// Class of a pixel from the exact integers, in step with normalise: which corners or edges it lies on, whether an edge
+// turns backward. Latency NORMALISE_STAGES, one pixel per clock.
 //
-// The result's register is written in clocks with active_i, else it holds. corner_o, one clock after the integers: the pixel is on a
-// corner or more.
+// The result's register is written in clocks with active_i, else it holds. corner_o, one clock after the integers: the
+// pixel is on a corner or more.
 //
-// class_o: quadrille_pkg::CLASS_* names its bits. notch: two neighbouring A have strictly opposite signs, and no override applies; it
-// is for the fragment's flag alone.
+// class_o: quadrille_pkg::CLASS_* names its bits. notch: two neighbouring A have strictly opposite signs, and no
+// override applies; it is for the fragment's flag alone.
 module quadrille_singular_class #(
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int CLASS = quadrille_pkg::CLASS_BITS
+    localparam int VAL = quadrille_pkg::VAL_BITS, QVAL = quadrille_pkg::QVAL_BITS, CLASS = quadrille_pkg::CLASS_BITS
 ) (
-    input logic clk_i,
-    input logic active_i,
+    input logic clk_i, active_i,
     input logic [4*VAL-1:0] a_i,
-    input logic [4*QVAL-1:0] d_i,
-    input logic [4*QVAL-1:0] r2_i,
+    input logic [4*QVAL-1:0] d_i, r2_i,
     output logic corner_o,
     output logic [CLASS-1:0] class_o
 );
   // Stage 1: signs.
-  logic [3:0] a_neg_d, a_pos_d, corner_d, edge_d;
-  logic [3:0] a_neg_q, a_pos_q, corner_q, edge_q;
+  logic [3:0] a_neg_d, a_pos_d, corner_d, edge_d, a_neg_q, a_pos_q, corner_q, edge_q;
 
   for (genvar g = 0; g < 4; g++) begin : gen_sign
     logic a_zero;
@@ -42,8 +37,7 @@ module quadrille_singular_class #(
   end
 
   // Stage 2: priority.
-  logic any_corner, many_corners, any_edge, many_edges;
-  logic two_corner, on_vertex, two_edge, on_edge, notch;
+  logic any_corner, many_corners, any_edge, many_edges, two_corner, on_vertex, two_edge, on_edge, notch;
   logic [3:0] concerned;
   logic [2:1] others;  // inner ones, without the lowest
   logic [3:0] differ;
@@ -76,9 +70,7 @@ module quadrille_singular_class #(
   assign word[quadrille_pkg::CLASS_SECOND+:2] = second;
 
   quadrille_delay_line #(.WIDTH(CLASS), .DEPTH(quadrille_pkg::NORMALISE_STAGES - 2)) u_delay (
-      .clk_i,
-      .data_i(word),
-      .data_o(late_word)
+      .clk_i, .data_i(word), .data_o(late_word)
   );
 
   always_ff @(posedge clk_i) if (active_i) class_o <= late_word;

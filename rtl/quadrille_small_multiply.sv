@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Signed factor times a small unsigned number, exact, by adders. Combinational.
 //
-// The number comes as radix4_digits, so that each two bits of it cost one selection (0, x, 2x, ~x) and one adder of the factor's
-// width. -x is ~x + 1, and the one waits for an adder whose carry-in is free: the last one leaves as carry_o, for the adder that
-// takes the product.
+// The number comes as radix4_digits, so that each two bits of it cost one selection (0, x, 2x, ~x) and one adder of the
+// factor's width. -x is ~x + 1, and the one waits for an adder whose carry-in is free: the last one leaves as carry_o,
+// for the adder that takes the product.
 //
 //     factor * number = product_o + carry_o
 module quadrille_small_multiply #(

@@ -1,94 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
-// Coverage of one tile row (a TILE x 1 stamp) a clock: the five edge functions at each pixel, the two clauses in both orientations,
-// culling, the scissor rectangle. Stamps with a covered pixel go to the stamp FIFO, an end entry passes through.
+// Coverage of one tile row (a TILE x 1 stamp) a clock: the five edge functions at each pixel, the two clauses in both
+// orientations, culling, the scissor rectangle. Stamps with a covered pixel go to the stamp FIFO, an end entry passes
+// through.
 //
-// Ties: E = 0 counts as the sign of (dE/dx, dE/dy), the first that is not 0 (tie_pos_i, tie_neg_i); an edge function without
-// gradient has no sign.
-// An entry comes in three registers: its tag (read with fetch_o), then its values and its quad's constants (read with load_o), then
-// the rows' own, with the multiples of gx that the pixels of a row need. Behind them a row takes three registers (values; signs; masks)
-// that never wait: it is sent in only while the FIFO has a place for it, and the place of a row without a covered pixel is given back.
+// Ties: E = 0 counts as the sign of (dE/dx, dE/dy), the first that is not 0 (tie_pos_i, tie_neg_i); an edge function
+// without gradient has no sign. An entry comes in three registers: its tag (read with fetch_o), then its values and its
+// quad's constants (read with load_o), then the rows' own, with the multiples of gx that the pixels of a row need.
+// Behind them a row takes three registers (values; signs; masks) that never wait: it is sent in only while the FIFO has
+// a place for it, and the place of a row without a covered pixel is given back.
 module quadrille_stamp_coverage #(
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PLACES = quadrille_pkg::STAMP_PLACES,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
+    localparam int V = quadrille_pkg::VIEWPORT_BITS, TC = quadrille_pkg::TC_BITS, VAL = quadrille_pkg::VAL_BITS,
+    localparam int GRAD = quadrille_pkg::GRAD_BITS, RING = quadrille_pkg::RING_LOG2,
+    localparam int PLACES = quadrille_pkg::STAMP_PLACES, TILE_LOG2 = quadrille_pkg::TILE_LOG2,
     localparam int TILE = quadrille_pkg::TILE
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
-    input logic [1:0] cull_i,
-    input logic [V:0] scissor_x0_i,
-    input logic [V:0] scissor_y0_i,
-    input logic [V:0] scissor_x1_i,
-    input logic [V:0] scissor_y1_i,
+    input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     // Tile ring: the tag is there the clock after fetch_o, until the next
     input logic present_i,
     output logic fetch_o,
     output logic [RING:0] fetch_ptr_o,
     input logic fetch_homogeneous_i,  // of the entry at fetch_ptr_o
-    input logic end_i,
-    input logic homogeneous_i,
-    input logic [TC-1:0] tile_x_i,
-    input logic [TC-1:0] tile_y_i,
-    input logic [TILE_LOG2-1:0] last_row_i,  // the rows below have no covered pixel
+    input logic [quadrille_pkg::TAG_BITS-1:0] tag_i,
     // Tile ring and quad: values and constants are there the clock after load_o, until the next
     output logic load_o,
     output logic [RING:0] load_ptr_o,
     input logic [5*VAL-1:0] lin_value_i,
-    input logic [5*GRAD-1:0] lin_gx_i,
-    input logic [5*GRAD-1:0] lin_gy_i,
-    input logic [4:0] tie_pos_i,
-    input logic [4:0] tie_neg_i,
-    input logic [3:0] visible_i,
-    // Masked depth: what goes with the registers; a tile that waits stays in the tag register
+    input logic [quadrille_pkg::EDGES_BITS-1:0] edges_i,
+    // Hidden tiles: what goes with the registers; a tile that waits stays in the tag register
+    output logic [quadrille_pkg::ROWS_BITS-1:0] rows_o,
     input logic wait_i,
     input logic hidden_i,  // of the tile in the rows register nothing can be seen: one row is issued
-    output logic rows_load_o,
-    output logic issue_o,
-    output logic rows_done_o,  // with the last row
-    output logic [TILE_LOG2-1:0] issue_row_o,
-    output logic [TILE-1:0] covered_o,  // of the row issued two clocks before
-    input logic [TILE-1:0] seen_i,  // of these, those that may be seen
-    // Stamp FIFO: freed_i when a stamp has left it
+    input logic [TILE-1:0] seen_i,  // of the covered pixels of the row issued two clocks before, those that may be seen
+    // Stamp FIFO: freed_i when a stamp has left it. No row of an entry before the stamp's tile is still to come
     input logic freed_i,
     output logic push_o,
-    output logic count_masked_o,  // for performance_counters, else 0: a tile's rows are left out
-    output logic count_row_o,  // a row is tested
-    output logic count_busy_o,  // a tile, or an end entry, is in the rows register
-    output logic count_behind_o,  // another one is behind it
-    output logic end_o,
-    output logic homogeneous_o,
-    output logic [RING:0] stamp_ptr_o,  // no row of an entry before this one is still to come
-    output logic [TILE_LOG2-1:0] row_o,
-    output logic [TILE-1:0] mask_o,
-    output logic [TILE-1:0] front_o,
-    output logic [TILE-1:0] tie_o
+    output logic [quadrille_pkg::STAMP_BITS-1:0] stamp_o,
+    // For performance_counters, else 0: a tile's rows are left out, a row is tested; the rows register has a tile,
+    // another is behind it
+    output logic [3:0] events_o
 );
-  // ---- Control ------------------------------------------------------------------------------------------------------------
+  `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
+  `QUADRILLE_IN(`QUADRILLE_TAG_T, tag)
+  `QUADRILLE_IN(`QUADRILLE_EDGES_T, edges)
+  // ---- Control ------------------------------------------------------------------------------------------------------
   localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
   logic [RING:0] fetch_q, load_q, row_ptr_q;
-  logic tag_valid_q, context_valid_q, rows_valid_q;
-  logic rows_load, rows_done, issue;
-  logic context_end_q, rows_end_q, context_homogeneous_q, rows_homogeneous_q;
+  logic tag_valid_q, context_valid_q, rows_valid_q, rows_load, rows_done, issue, context_end_q, rows_end_q;
+  logic context_homogeneous_q, rows_homogeneous_q;
   logic [TILE_LOG2-1:0] row_q, last_row_q, context_last_row_q;
   localparam int ROOM = $clog2(PLACES + 1);
   logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
   logic freed_q, drop;
+  logic [TILE-1:0] covered;  // of the row issued two clocks before
 
-  if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
-    assign count_masked_o = issue && !rows_end_q && hidden_i;
-    assign count_row_o = issue && !rows_end_q && !hidden_i;
-    assign count_busy_o = rows_valid_q;
-    assign count_behind_o = context_valid_q;
-  end else begin : gen_no_count
-    assign {count_masked_o, count_row_o, count_busy_o, count_behind_o} = '0;
-  end
-
+  assign events_o = {4{quadrille_pkg::PERFORMANCE_COUNTERS != 0}} &
+      {issue && !rows_end_q && hidden_i, issue && !rows_end_q && !hidden_i, rows_valid_q, context_valid_q};
   assign issue = rows_valid_q && room_q != '0;
   assign rows_done = issue && (rows_end_q || hidden_i || row_q == last_row_q);
   assign rows_load = context_valid_q && (!rows_valid_q || rows_done);
@@ -96,10 +67,7 @@ module quadrille_stamp_coverage #(
   assign fetch_o = present_i && (!tag_valid_q || load_o);
   assign fetch_ptr_o = fetch_q;
   assign load_ptr_o = load_q;
-  assign rows_load_o = rows_load;
-  assign issue_o = issue;
-  assign rows_done_o = rows_done;
-  assign issue_row_o = row_q;
+  assign rows_o = {load_o, rows_load, issue, rows_done, row_q, covered};
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -113,7 +81,7 @@ module quadrille_stamp_coverage #(
       room_q <= ROOM'(PLACES);
     end else begin
       if (fetch_o) fetch_q <= fetch_q + (fetch_homogeneous_i ? PARTS : (RING + 1)'(1));
-      if (load_o) load_q <= load_q + (homogeneous_i ? PARTS : (RING + 1)'(1));
+      if (load_o) load_q <= load_q + (tag.homogeneous ? PARTS : (RING + 1)'(1));
       if (rows_done) row_ptr_q <= row_ptr_q + (rows_homogeneous_q ? PARTS : (RING + 1)'(1));
       tag_valid_q <= fetch_o || (tag_valid_q && !load_o);
       context_valid_q <= load_o || (context_valid_q && !rows_load);
@@ -129,12 +97,14 @@ module quadrille_stamp_coverage #(
 
   always_ff @(posedge clk_i) begin
     if (load_o) begin
-      {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {end_i, homogeneous_i, tile_x_i, tile_y_i};
-      context_last_row_q <= last_row_i;
+      {context_end_q, context_homogeneous_q, context_x_q, context_y_q} <= {tag.end_token, tag.homogeneous, tag.tile_x,
+          tag.tile_y};
+      context_last_row_q <= tag.last_row;
     end
     if (rows_load) begin
-      {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q, context_y_q};
-      {tie_pos_q, tie_neg_q, visible_q} <= {tie_pos_i, tie_neg_i, visible_i};
+      {rows_end_q, rows_homogeneous_q, tile_x_q, tile_y_q} <= {context_end_q, context_homogeneous_q, context_x_q,
+          context_y_q};
+      {tie_pos_q, tie_neg_q, visible_q} <= {edges.tie_pos, edges.tie_neg, edges.visible};
       row_q <= '0;
       last_row_q <= context_last_row_q;
     end else if (issue) begin
@@ -142,8 +112,9 @@ module quadrille_stamp_coverage #(
     end
   end
 
-  // ---- Values, and their signs --------------------------------------------------------------------------------------------
-  // A row's values differ from its first by less than TILE |gx|: if that is further from zero than they reach, all have its sign.
+  // ---- Values, and their signs -------------------------------------------------------------------------------------
+  // A row's values differ from its first by less than TILE |gx|: if that is further from zero than they reach, all have
+  // its sign.
   localparam int MULT = GRAD + TILE_LOG2;  // TILE gx
   localparam int CLOSE = (MULT + 2 < VAL) ? MULT + 2 : VAL;  // a first value that is close, and what it reaches
   logic [5*TILE-1:0] is_neg_q2, is_zero_q2;
@@ -154,12 +125,12 @@ module quadrille_stamp_coverage #(
     logic [VAL-1:0] row_value_q;
     logic far, far_q1, far_neg_q1;
 
-    assign gx = MULT'($signed(lin_gx_i[g*GRAD+:GRAD]));
+    assign gx = MULT'($signed(edges.gx[g*GRAD+:GRAD]));
 
     always_ff @(posedge clk_i) begin
       if (rows_load) begin
         row_value_q <= lin_value_i[g*VAL+:VAL];
-        gy_q <= lin_gy_i[g*GRAD+:GRAD];
+        gy_q <= edges.gy[g*GRAD+:GRAD];
       end else if (issue) begin
         row_value_q <= row_value_q + VAL'($signed(gy_q));
       end
@@ -175,8 +146,7 @@ module quadrille_stamp_coverage #(
 
     // Odd multiples: the neighbour that four divides, plus or minus gx.
     for (genvar k = 0; k < TILE / 2; k++) begin : gen_multiple
-      localparam int ODD = 2 * k + 1;
-      localparam int NEAR = (ODD % 4 == 3) ? ODD + 1 : ODD - 1;
+      localparam int ODD = 2 * k + 1, NEAR = (ODD % 4 == 3) ? ODD + 1 : ODD - 1;
       localparam int ZEROS = (NEAR % 16 == 0) ? 4 : (NEAR % 8 == 0) ? 3 : 2;  // NEAR = its odd part times 2^ZEROS
       logic [MULT-1:0] multiple, multiple_q;
 
@@ -192,13 +162,15 @@ module quadrille_stamp_coverage #(
     end
 
     for (genvar dx = 0; dx < TILE; dx++) begin : gen_pixel
-      localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;  // dx = its odd part times 2^ZEROS
+      // dx = its odd part times 2^ZEROS
+      localparam int ZEROS = (dx % 8 == 0) ? 3 : (dx % 4 == 0) ? 2 : (dx % 2 == 0) ? 1 : 0;
       logic [CLOSE-1:0] value_q1;
 
       if (dx == 0) begin : gen_first
         always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0];
       end else begin : gen_next
-        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] + (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
+        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] +
+            (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
       end
 
       always_ff @(posedge clk_i) begin
@@ -208,7 +180,7 @@ module quadrille_stamp_coverage #(
     end
   end
 
-  // ---- Scissor, beside the values -----------------------------------------------------------------------------------------
+  // ---- Scissor, beside the values ----------------------------------------------------------------------------------
   logic [V:0] y;
   logic [TC-1:0] first_tile, end_tile;  // of the rectangle's columns
   logic [TILE_LOG2-1:0] first_dx, end_dx;
@@ -216,11 +188,11 @@ module quadrille_stamp_coverage #(
   logic [TILE-1:0] in_scissor, in_scissor_q2;
 
   assign y = {tile_y_q, row_q};
-  assign {first_tile, first_dx} = scissor_x0_i;
-  assign {end_tile, end_dx} = scissor_x1_i;
+  assign {first_tile, first_dx} = state.scissor_x0;
+  assign {end_tile, end_dx} = state.scissor_x1;
 
   always_ff @(posedge clk_i) begin
-    row_inside_q1 <= y >= scissor_y0_i && y < scissor_y1_i;
+    row_inside_q1 <= y >= state.scissor_y0 && y < state.scissor_y1;
     right_of_first_q1 <= tile_x_q > first_tile;
     in_first_q1 <= tile_x_q == first_tile;
     left_of_end_q1 <= tile_x_q < end_tile;
@@ -235,10 +207,10 @@ module quadrille_stamp_coverage #(
     end
   end
 
-  // ---- What goes with a row -----------------------------------------------------------------------------------------------
+  // ---- What goes with a row ----------------------------------------------------------------------------------------
   localparam int SIGNS = 5 + 5 + 4;
   logic [2:0] row_valid_q;
-  logic end_q1, end_q2, end_q3, homogeneous_q1, homogeneous_q2;
+  logic end_q1, end_q2, end_q3, homogeneous_q1, homogeneous_q2, homogeneous_q3;
   logic [RING:0] ptr_q1, ptr_q2, ptr_q3;
   logic [TILE_LOG2-1:0] row_q1, row_q2, row_q3;
   logic [SIGNS-1:0] signs_q1, signs_q2;
@@ -258,17 +230,17 @@ module quadrille_stamp_coverage #(
   end
 
   always_ff @(posedge clk_i) begin
-    {end_q1, homogeneous_q1, row_q1, signs_q1} <= {rows_end_q, rows_homogeneous_q, row_q, tie_pos_q, tie_neg_q, visible_q};
+    {end_q1, homogeneous_q1, row_q1, signs_q1} <= {rows_end_q, rows_homogeneous_q, row_q, tie_pos_q, tie_neg_q,
+        visible_q};
     {end_q2, homogeneous_q2, row_q2, signs_q2} <= {end_q1, homogeneous_q1, row_q1, signs_q1};
-    {end_q3, homogeneous_o, row_q3} <= {end_q2, homogeneous_q2, row_q2};
+    {end_q3, homogeneous_q3, row_q3} <= {end_q2, homogeneous_q2, row_q2};
   end
 
-  // ---- Clauses ------------------------------------------------------------------------------------------------------------
+  // ---- Clauses -----------------------------------------------------------------------------------------------------
   logic [4:0] tie_pos, tie_neg;
   logic [3:0] visible;
   logic [5*TILE-1:0] pos, neg, zero;
-  logic [TILE-1:0] back, front, mask;
-  logic [TILE-1:0] mask_q3, front_q3, tie_q3;
+  logic [TILE-1:0] back, front, mask, mask_q3, front_q3, tie_q3;
 
   assign {tie_pos, tie_neg, visible} = signs_q2;
 
@@ -283,16 +255,11 @@ module quadrille_stamp_coverage #(
   end
 
   quadrille_inside_expression #(.PLACES(TILE)) u_inside (
-      .cull_i,
-      .visible_i(visible),
-      .pos_i(pos),
-      .neg_i(neg),
-      .back_o(back),
-      .front_o(front)
+      .cull_i(state.cull), .visible_i(visible), .pos_i(pos), .neg_i(neg), .back_o(back), .front_o(front)
   );
 
-  assign covered_o = end_q2 ? '0 : (back | front) & in_scissor_q2;
-  assign mask = covered_o & seen_i;
+  assign covered = end_q2 ? '0 : (back | front) & in_scissor_q2;
+  assign mask = covered & seen_i;
 
   always_ff @(posedge clk_i) begin
     mask_q3 <= mask;
@@ -300,15 +267,10 @@ module quadrille_stamp_coverage #(
     tie_q3 <= (zero[0+:TILE] | zero[TILE+:TILE] | zero[2*TILE+:TILE] | zero[3*TILE+:TILE] | zero[4*TILE+:TILE]) & mask;
   end
 
-  // ---- Push ---------------------------------------------------------------------------------------------------------------
+  // ---- Push --------------------------------------------------------------------------------------------------------
   assign push_o = row_valid_q[2] && (end_q3 || mask_q3 != '0);
   assign drop = row_valid_q[2] && !push_o;
-  assign end_o = end_q3;
-  assign stamp_ptr_o = ptr_q3;
-  assign row_o = row_q3;  // of an end entry 0
-  assign mask_o = mask_q3;
-  assign front_o = front_q3;
-  assign tie_o = tie_q3;
+  assign stamp_o = {homogeneous_q3, end_q3, ptr_q3, row_q3, mask_q3, front_q3, tie_q3};  // an end entry's row is 0
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function, C0 + (C1 - C2 dx) dx of a rising concave one. Latency 3, one result per clock: the table's word, inner and
-// outer product; the result is clamped behind the last register, for its user's.
+// Piecewise quadratic C0 - (C1 - C2 dx) dx of a falling convex function, C0 + (C1 - C2 dx) dx of a rising concave one.
+// Latency 3, one result per clock: the table's word, inner and outer product; the result is clamped behind the last
+// register, for its user's.
 //
-// word_i = {C0[S+4], C1[S], C2[S]} unsigned, dx_i = the low R bits of the argument below the segment's index, read as a fraction
-// of the segment. Two multipliers of S x R bits, truncated; the accumulator has TABLE_GUARD bits below the result, which is
-// clamped to [2^(S-1), 2^S - 1]. A degree 1 table has C2 = 0 in every word.
+// word_i = {C0[S+4], C1[S], C2[S]} unsigned, dx_i = the low R bits of the argument below the segment's index, read as a
+// fraction of the segment. Two multipliers of S x R bits, truncated; the accumulator has TABLE_GUARD bits below the
+// result, which is clamped to [2^(S-1), 2^S - 1]. A degree 1 table has C2 = 0 in every word.
 module quadrille_table_polynomial #(
     parameter int SEGMENTS_LOG2 = 5,
     parameter bit RISING = 1'b0,
-    localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
-    localparam int R = S - 1 - SEGMENTS_LOG2,
-    localparam int DX_BITS = (R < 1) ? 1 : R
+    localparam int S = quadrille_pkg::SIGNIFICAND_BITS, R = S - 1 - SEGMENTS_LOG2, DX_BITS = (R < 1) ? 1 : R
 ) (
     input logic clk_i,
     input logic [3*S+3:0] word_i,

@@ -1,85 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
-// The quadratic functions of a tile that is hit, from its quad's vertices relative to the tile: value, gx, gy, q of f(dx, dy) = value
-// + dx gx + dy gy + q (dx^2 + dy^2), each without its QDROP lowest bits, written into the tile's entry of the ring as they come.
+// The quadratic functions of a tile that is hit, from its quad's vertices relative to the tile: value, gx, gy, q of
+// f(dx, dy) = value + dx gx + dy gy + q (dx^2 + dy^2), each without its QDROP lowest bits, written into the tile's
+// entry of the ring as they come.
 //
-// Ordinary quad: the four squared distances, gx = -2 X ONE, gy = -2 Y ONE, q = ONE^2; 3 clocks a tile. Homogeneous quad: all ten, in three
-// words of the ring (quadrille_pkg: PART_*), 29 clocks a tile. With two pairs of dot units 2 and 19: in a step each has a job. SPEC.md
-// has the steps. The multipliers are those of vertex_products; a step with jobs here takes the clock from the setup.
+// Ordinary quad: the four squared distances, gx = -2 X ONE, gy = -2 Y ONE, q = ONE^2; 3 clocks a tile. Homogeneous
+// quad: all ten, in three words of the ring (quadrille_pkg: PART_*), 29 clocks a tile. With two pairs of dot units 2
+// and 19: in a step each has a job. SPEC.md has the steps. The multipliers are those of vertex_products; a step with
+// jobs here takes the clock from the setup.
 //
-// An entry is complete, in the order of the pushes, VERTEX_PRODUCT_CLOCKS after its last step (complete_o). An end entry has no step
-// of its own but waits its turn.
+// An entry is complete, in the order of the pushes, VERTEX_PRODUCT_CLOCKS after its last step (complete_o). An end
+// entry has no step of its own but waits its turn.
 module quadrille_tile_context #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int BUSES = quadrille_pkg::CONTEXT_BUSES
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int TC = quadrille_pkg::TC_BITS, GRAD = quadrille_pkg::GRAD_BITS, QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, RING = quadrille_pkg::RING_LOG2,
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, BUSES = quadrille_pkg::CONTEXT_BUSES
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
-    // Quad: vertices relative to its first tile's origin pixel
+    // Quad: its vertices, relative to its first tile
     input logic take_i,
-    input logic homogeneous_i,
-    input logic [4*T-1:0] x_i,
-    input logic [4*T-1:0] y_i,
-    input logic [4*W-1:0] w_i,
+    input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     output logic homogeneous_o,  // of the quad that was taken last
     // Tile: how far from the quad's first one, and its entry in the ring
     input logic push_i,
     output logic ready_o,
     input logic end_i,
-    input logic [TC-1:0] column_i,
-    input logic [TC-1:0] row_i,
+    input logic [quadrille_pkg::TILE_BITS-1:0] tile_i,
     input logic [RING-1:0] entry_i,
-    // Jobs of vertex_products, one for each pair of its units
+    // Jobs of vertex_products, and what comes of them
     output logic job_valid_o,
-    output logic [PAIRS*3-1:0] kind_o,
-    output logic [PAIRS*4-1:0] function_o,
-    output logic [4*T-1:0] x_o,
-    output logic [4*T-1:0] y_o,
-    output logic [4*W-1:0] w_o,
-    output logic [V:0] offset_x_o,
-    output logic [V:0] offset_y_o,
-    // Their pairs of vertices a clock later, their results VERTEX_PRODUCT_CLOCKS later
-    input logic [PAIRS*T-1:0] xi_i,
-    input logic [PAIRS*T-1:0] yi_i,
-    input logic [PAIRS*T-1:0] xj_i,
-    input logic [PAIRS*T-1:0] yj_i,
-    input logic [PAIRS*OUT-1:0] result0_i,
-    input logic [PAIRS*OUT-1:0] result1_i,
-    // Words of the ring, of four functions each: function g has bus g mod BUSES, of q g mod PAIRS
-    output logic [3:0] value_write_o,
-    output logic [RING-1:0] value_entry_o,
-    output logic [BUSES*QVAL-1:0] value_o,
-    output logic [3:0] gradient_write_o,
-    output logic [RING-1:0] gradient_entry_o,
-    output logic [BUSES*QGRAD-1:0] gx_o,
-    output logic [BUSES*QGRAD-1:0] gy_o,
-    output logic [3:0] q_write_o,
-    output logic [RING-1:0] q_entry_o,
-    output logic [PAIRS*QCURV-1:0] q_o,
-    output logic complete_o,
-    output logic complete_homogeneous_o
+    output logic [quadrille_pkg::JOBS_BITS-1:0] jobs_o,
+    input logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_i,
+    output logic [quadrille_pkg::WORDS_BITS-1:0] words_o
 );
-  localparam int FRAC = quadrille_pkg::FRAC;
-  localparam int QDROP = quadrille_pkg::QDROP;
-  localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
+  `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup)
+  `QUADRILLE_IN(`QUADRILLE_TILE_T, tile)
+  `QUADRILLE_IN(`QUADRILLE_PRODUCTS_T, products)
+  logic [3:0] word_value_write, word_gradient_write, word_q_write;
+  logic [quadrille_pkg::RING_LOG2-1:0] word_value_entry, word_gradient_entry, word_q_entry;
+  logic [quadrille_pkg::CONTEXT_BUSES*quadrille_pkg::QVAL_BITS-1:0] word_value;
+  logic [quadrille_pkg::CONTEXT_BUSES*quadrille_pkg::QGRAD_BITS-1:0] word_gx, word_gy;
+  logic [quadrille_pkg::PRODUCT_PAIRS*quadrille_pkg::QCURV_BITS-1:0] word_q;
+  logic word_complete, word_complete_homogeneous;
+  logic [PAIRS*3-1:0] kinds;
+  logic [PAIRS*4-1:0] functions;
+  logic [4*T-1:0] x, y;
+  logic [4*W-1:0] w;
+  logic [V:0] offset_x, offset_y;
+
+  assign jobs_o = {kinds, functions, x, y, w, offset_x, offset_y};
+  assign words_o = {word_value_write, word_value_entry, word_value, word_gradient_write, word_gradient_entry, word_gx,
+      word_gy, word_q_write, word_q_entry, word_q, word_complete, word_complete_homogeneous};
+  localparam int FRAC = quadrille_pkg::FRAC, QDROP = quadrille_pkg::QDROP, TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
 
-  // ---- Steps --------------------------------------------------------------------------------------------------------------
-  // Step 0 loads the vertices, an ordinary quad's moved to the tile; then SQUARES of two pairs. A homogeneous quad: MOVE of four vertices;
-  // when those of the first products are there (each next one finds its vertices in time) DOT and DOT_GRADIENT of the ten functions. In a
-  // step pair p of the units has the function or vertex PAIRS n + p. The next tile may come then: its own results come later than the
-  // last ones of this.
+  // ---- Steps -------------------------------------------------------------------------------------------------------
+  // Step 0 loads the vertices, an ordinary quad's moved to the tile; then SQUARES of two pairs. A homogeneous quad:
+  // MOVE of four vertices; when those of the first products are there (each next one finds its vertices in time) DOT
+  // and DOT_GRADIENT of the ten functions. In a step pair p of the units has the function or vertex PAIRS n + p. The
+  // next tile may come then: its own results come later than the last ones of this.
   localparam logic [5:0] MOVE_END = 6'(1 + 4 / PAIRS);
   localparam logic [5:0] PRODUCT = 6'd3 + 6'(CLOCKS);
   localparam logic [5:0] GRADIENT = PRODUCT + 6'(10 / PAIRS);
@@ -121,10 +105,10 @@ module quadrille_tile_context #(
     end
   end
 
-  assign kind_o = {PAIRS{kind}};
+  assign kinds = {PAIRS{kind}};
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_function
-    assign function_o[p*4+:4] = first_function + 4'(p) * next_function;
+    assign functions[p*4+:4] = first_function + 4'(p) * next_function;
   end
 
   always_ff @(posedge clk_i) begin
@@ -139,42 +123,43 @@ module quadrille_tile_context #(
   always_ff @(posedge clk_i) begin
     if (push_i) begin
       step_q <= '0;
-      {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, column_i, row_i, entry_i};
+      {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, tile.column, tile.row,
+          entry_i};
     end else begin
       step_q <= step_q + 6'd1;
     end
   end
 
-  // ---- Vertices -----------------------------------------------------------------------------------------------------------
+  // ---- Vertices ----------------------------------------------------------------------------------------------------
   logic [4*T-1:0] quad_x_q, quad_y_q;
   logic [4*W-1:0] quad_w_q;
   logic moved;
   logic [1:0] moved_vertex;
   logic [T-1:0] shift_x, shift_y;  // ONE times the offset
 
-  assign offset_x_o = {column_q, TILE_LOG2'(0)};
-  assign offset_y_o = {row_q, TILE_LOG2'(0)};
-  assign shift_x = homogeneous_q ? '0 : T'(offset_x_o) << FRAC;
-  assign shift_y = homogeneous_q ? '0 : T'(offset_y_o) << FRAC;
+  assign offset_x = {column_q, TILE_LOG2'(0)};
+  assign offset_y = {row_q, TILE_LOG2'(0)};
+  assign shift_x = homogeneous_q ? '0 : T'(offset_x) << FRAC;
+  assign shift_y = homogeneous_q ? '0 : T'(offset_y) << FRAC;
 
   always_ff @(posedge clk_i) begin
-    if (take_i) {homogeneous_o, quad_x_q, quad_y_q, quad_w_q} <= {homogeneous_i, x_i, y_i, w_i};
-    if (load) w_o <= quad_w_q;
+    if (take_i) {homogeneous_o, quad_x_q, quad_y_q, quad_w_q} <= {setup.homogeneous, setup.x, setup.y, setup.w};
+    if (load) w <= quad_w_q;
   end
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     always_ff @(posedge clk_i) begin
       if (load) begin
-        x_o[g*T+:T] <= quad_x_q[g*T+:T] - shift_x;
-        y_o[g*T+:T] <= quad_y_q[g*T+:T] - shift_y;
+        x[g*T+:T] <= quad_x_q[g*T+:T] - shift_x;
+        y[g*T+:T] <= quad_y_q[g*T+:T] - shift_y;
       end else if (moved && moved_vertex == 2'(g / PAIRS * PAIRS)) begin
-        x_o[g*T+:T] <= T'(result0_i[(g%PAIRS)*OUT+:OUT]);
-        y_o[g*T+:T] <= T'(result1_i[(g%PAIRS)*OUT+:OUT]);
+        x[g*T+:T] <= T'(products.result0[(g%PAIRS)*OUT+:OUT]);
+        y[g*T+:T] <= T'(products.result1[(g%PAIRS)*OUT+:OUT]);
       end
     end
   end
 
-  // ---- What the jobs under way are ------------------------------------------------------------------------------------------
+  // ---- What the jobs under way are ---------------------------------------------------------------------------------
   // A clock after the job an ordinary quad's gradients and q are there; with the results all else.
   localparam int JOB = 5 + 4 + RING + 1;
   logic [JOB-1:0] job;
@@ -204,12 +189,13 @@ module quadrille_tile_context #(
 
   assign early_squares = job_q[JOB-4];
   assign {early_function, early_entry} = job_q[1+:4+RING];
-  assign {late_move, late_dot, late_gradient, late_squares, complete_o, late_function, late_entry, complete_homogeneous_o} =
+  assign {late_move, late_dot, late_gradient, late_squares, word_complete, late_function, late_entry,
+      word_complete_homogeneous} =
       job_q[CLOCKS*JOB-1-:JOB];
   assign moved = late_move;
   assign moved_vertex = late_function[1:0] - 2'd2;  // functions 6 to 9
 
-  // ---- Where a function is in the ring: its word of four functions, and which of them ---------------------------------------
+  // ---- Where a function is in the ring: its word of four functions, and which of them ------------------------------
   // late_*, early_*: the first pair's function, and the lanes that it and the other pairs' fill.
   logic [3:0] late_lanes, late_squares_lanes, early_lanes;
   logic [RING-1:0] late_word;
@@ -229,8 +215,8 @@ module quadrille_tile_context #(
   assign late_squares_lanes = (PAIRS == 2) ? 4'b1111 : (late_function == 4'd0) ? 4'b0011 : 4'b1100;
   assign early_lanes = (PAIRS == 2) ? 4'b1111 : (early_function == 4'd0) ? 4'b0011 : 4'b1100;
 
-  // On bus b a product of pair b mod PAIRS, or of the squares of pair b / 2 of the units the one of its first or second vertex.
-  // gx = -(Xi Wj + Wi Xj); of an ordinary quad's square -2 X ONE.
+  // On bus b a product of pair b mod PAIRS, or of the squares of pair b / 2 of the units the one of its first or second
+  // vertex. gx = -(Xi Wj + Wi Xj); of an ordinary quad's square -2 X ONE.
   localparam int CURV = quadrille_pkg::CURV_BITS;
 
   for (genvar b = 0; b < BUSES; b++) begin : gen_bus
@@ -240,32 +226,32 @@ module quadrille_tile_context #(
     logic [T-1:0] early_x, early_y;
     logic [GRAD-1:0] minus_x, minus_y, exact_x, exact_y;
 
-    assign dot = result0_i[P*OUT+:OUT];
-    assign square = (b % 2 == 0) ? result0_i[SQUARE*OUT+:OUT] : result1_i[SQUARE*OUT+:OUT];
-    assign value_o[b*QVAL+:QVAL] = QVAL'((late_dot ? dot : square) >> QDROP);
-    assign early_x = (b % 2 == 0) ? xi_i[SQUARE*T+:T] : xj_i[SQUARE*T+:T];
-    assign early_y = (b % 2 == 0) ? yi_i[SQUARE*T+:T] : yj_i[SQUARE*T+:T];
-    assign minus_x = early_squares ? GRAD'($signed(early_x)) << (FRAC + 1) : result0_i[P*OUT+:GRAD];
-    assign minus_y = early_squares ? GRAD'($signed(early_y)) << (FRAC + 1) : result1_i[P*OUT+:GRAD];
+    assign dot = products.result0[P*OUT+:OUT];
+    assign square = (b % 2 == 0) ? products.result0[SQUARE*OUT+:OUT] : products.result1[SQUARE*OUT+:OUT];
+    assign word_value[b*QVAL+:QVAL] = QVAL'((late_dot ? dot : square) >> QDROP);
+    assign early_x = (b % 2 == 0) ? products.xi[SQUARE*T+:T] : products.xj[SQUARE*T+:T];
+    assign early_y = (b % 2 == 0) ? products.yi[SQUARE*T+:T] : products.yj[SQUARE*T+:T];
+    assign minus_x = early_squares ? GRAD'($signed(early_x)) << (FRAC + 1) : products.result0[P*OUT+:GRAD];
+    assign minus_y = early_squares ? GRAD'($signed(early_y)) << (FRAC + 1) : products.result1[P*OUT+:GRAD];
     assign exact_x = GRAD'(0) - minus_x;
     assign exact_y = GRAD'(0) - minus_y;
-    assign gx_o[b*QGRAD+:QGRAD] = QGRAD'(exact_x >> QDROP);
-    assign gy_o[b*QGRAD+:QGRAD] = QGRAD'(exact_y >> QDROP);
+    assign word_gx[b*QGRAD+:QGRAD] = QGRAD'(exact_x >> QDROP);
+    assign word_gy[b*QGRAD+:QGRAD] = QGRAD'(exact_y >> QDROP);
   end
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_curvature
     logic [CURV-1:0] q;
 
-    assign q = early_squares ? CURV'(1) << (2 * FRAC) : result1_i[p*OUT+:CURV];
-    assign q_o[p*QCURV+:QCURV] = QCURV'(q >> QDROP);
+    assign q = early_squares ? CURV'(1) << (2 * FRAC) : products.result1[p*OUT+:CURV];
+    assign word_q[p*QCURV+:QCURV] = QCURV'(q >> QDROP);
   end
 
-  assign value_write_o = ({4{late_dot}} & late_lanes) | ({4{late_squares}} & late_squares_lanes);
-  assign value_entry_o = late_word;
-  assign gradient_write_o = early_squares ? early_lanes : {4{late_gradient}} & late_lanes;
-  assign gradient_entry_o = early_squares ? early_entry : late_word;
-  assign q_write_o = early_squares ? early_lanes : {4{late_dot}} & late_lanes;
-  assign q_entry_o = early_squares ? early_entry : late_word;
+  assign word_value_write = ({4{late_dot}} & late_lanes) | ({4{late_squares}} & late_squares_lanes);
+  assign word_value_entry = late_word;
+  assign word_gradient_write = early_squares ? early_lanes : {4{late_gradient}} & late_lanes;
+  assign word_gradient_entry = early_squares ? early_entry : late_word;
+  assign word_q_write = early_squares ? early_lanes : {4{late_dot}} & late_lanes;
+  assign word_q_entry = early_squares ? early_entry : late_word;
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin

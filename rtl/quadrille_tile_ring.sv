@@ -1,90 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
 // Ring of tile contexts between the walk and the pixels. Pointers have one extra bit.
 //
-// A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions are in as many
-// words of four, one an entry, all else in the first. The walk writes linear functions and tag, tile_context the words; only then
-// (complete_i) coverage sees the entry.
+// A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions
+// are in as many words of four, one an entry, all else in the first. The walk writes linear functions and tag,
+// tile_context the words; only then (complete_i) coverage sees the entry.
 //
-// An entry lives until the last stamp of its tile has been emitted: the tail is the tile of the stamp FIFO's head, or, when the FIFO is
-// empty, the entry of the row that coverage has at its end. It is a register: an entry is free two clocks after its last stamp was popped,
-// which is the clock in which emission reads its values for the last time (asserted).
-// Reads end in registers. Coverage: tag with fetch_i, values with load_i. Emission, every clock: the tag a clock after the pointer,
-// all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive together with it; of the words that of
-// the pixel's part.
+// An entry lives until the last stamp of its tile has been emitted: the tail is the tile of the stamp FIFO's head, or,
+// when the FIFO is empty, the entry of the row that coverage has at its end. It is a register: an entry is free two
+// clocks after its last stamp was popped, which is the clock in which emission reads its values for the last time
+// (asserted). Reads end in registers. Coverage: tag with fetch_i, values with load_i. Emission, every clock: the tag a
+// clock after the pointer, all else two clocks after it, so that the quad's constants, found by the tag's slot, arrive
+// together with it; of the words that of the pixel's part.
 module quadrille_tile_ring #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int QVAL = quadrille_pkg::QVAL_BITS,
-    localparam int QGRAD = quadrille_pkg::QGRAD_BITS,
-    localparam int QCURV = quadrille_pkg::QCURV_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int RING = quadrille_pkg::RING_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS,
+    localparam int TC = quadrille_pkg::TC_BITS, VAL = quadrille_pkg::VAL_BITS, QVAL = quadrille_pkg::QVAL_BITS,
+    localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS,
+    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, RING = quadrille_pkg::RING_LOG2,
+    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, PAIRS = quadrille_pkg::PRODUCT_PAIRS,
     localparam int BUSES = quadrille_pkg::CONTEXT_BUSES
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
-    // Write
+    // Write: tile_walk's tile, tile_context's words
     input logic push_i,
     output logic full_o,  // no room for the entry
     output logic [RING-1:0] entry_o,  // that a push takes
-    input logic end_i,
-    input logic homogeneous_i,
-    input logic [SLOT-1:0] slot_i,
-    input logic [TC-1:0] tile_x_i,
-    input logic [TC-1:0] tile_y_i,
-    input logic [TILE_LOG2-1:0] last_row_i,
-    input logic [6*VAL-1:0] lin_value_i,
-    // Words: the four functions' write bits; function g takes bus g mod BUSES, of q g mod PAIRS
-    input logic [3:0] value_write_i,
-    input logic [RING-1:0] value_entry_i,
-    input logic [BUSES*QVAL-1:0] value_i,
-    input logic [3:0] gradient_write_i,
-    input logic [RING-1:0] gradient_entry_i,
-    input logic [BUSES*QGRAD-1:0] gx_i,
-    input logic [BUSES*QGRAD-1:0] gy_i,
-    input logic [3:0] q_write_i,
-    input logic [RING-1:0] q_entry_i,
-    input logic [PAIRS*QCURV-1:0] q_i,
-    input logic complete_i,
-    input logic complete_homogeneous_i,
+    input logic end_i, homogeneous_i,
+    input logic [quadrille_pkg::TILE_BITS-1:0] tile_i,
+    input logic [quadrille_pkg::WORDS_BITS-1:0] words_i,
     // Read for coverage
     input logic fetch_i,
     input logic [RING:0] fetch_ptr_i,
     output logic stamp_present_o,
     output logic fetch_homogeneous_o,  // the entry at fetch_ptr_i
-    output logic stamp_end_o,
-    output logic stamp_homogeneous_o,
-    output logic [SLOT-1:0] stamp_slot_o,
-    output logic [TC-1:0] stamp_tile_x_o,
-    output logic [TC-1:0] stamp_tile_y_o,
-    output logic [TILE_LOG2-1:0] stamp_last_row_o,
+    output logic [quadrille_pkg::TAG_BITS-1:0] tag_o,
     input logic load_i,
     input logic [RING:0] load_ptr_i,
     output logic [5*VAL-1:0] stamp_lin_value_o,
     // Tail
     input logic [RING:0] stamp_ptr_i,
-    input logic stamps_empty_i,
-    input logic head_valid_i,
+    input logic stamps_empty_i, head_valid_i,
     input logic [RING:0] head_ptr_i,
     // Read for emission
     input logic emit_valid_i,
     input logic [RING:0] emit_ptr_i,
     input logic [1:0] emit_part_i,
     output logic [SLOT-1:0] tag_slot_o,  // a clock after the pointer
-    output logic [SLOT-1:0] emit_slot_o,  // two clocks after it, as all below
-    output logic [TC-1:0] emit_tile_x_o,
-    output logic [TC-1:0] emit_tile_y_o,
-    output logic [6*VAL-1:0] emit_lin_value_o,
-    output logic [4*QVAL-1:0] emit_quad_value_o,
-    output logic [4*QGRAD-1:0] emit_quad_gx_o,
-    output logic [4*QGRAD-1:0] emit_quad_gy_o,
-    output logic [4*QCURV-1:0] emit_quad_q_o
+    output logic [quadrille_pkg::CONTEXT_BITS-1:0] context_o  // two clocks after it
 );
+  `QUADRILLE_IN(`QUADRILLE_TILE_T, tile)
+  `QUADRILLE_IN(`QUADRILLE_WORDS_T, words)
+  logic stamp_end, stamp_homogeneous;
+  logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] stamp_slot;
+  logic [quadrille_pkg::TC_BITS-1:0] stamp_tile_x, stamp_tile_y;
+  logic [quadrille_pkg::TILE_LOG2-1:0] stamp_last_row;
+  logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] emit_slot;
+  logic [quadrille_pkg::TC_BITS-1:0] emit_tile_x, emit_tile_y;
+  logic [6*quadrille_pkg::VAL_BITS-1:0] emit_lin_value;
+  logic [4*quadrille_pkg::QVAL_BITS-1:0] emit_quad_value;
+  logic [4*quadrille_pkg::QGRAD_BITS-1:0] emit_quad_gx, emit_quad_gy;
+  logic [4*quadrille_pkg::QCURV_BITS-1:0] emit_quad_q;
   localparam int ENTRIES = 1 << RING;
+
+  assign tag_o = {stamp_end, stamp_homogeneous, stamp_slot, stamp_tile_x, stamp_tile_y, stamp_last_row};
+  assign context_o = {emit_slot, emit_tile_x, emit_tile_y, emit_lin_value, emit_quad_value, emit_quad_gx, emit_quad_gy,
+      emit_quad_q};
 
   localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
 
@@ -110,7 +92,7 @@ module quadrille_tile_ring #(
       tail_q <= '0;
     end else begin
       if (push_i) write_q <= write_q + (in_parts ? PARTS : (RING + 1)'(1));
-      if (complete_i) complete_q <= complete_q + (complete_homogeneous_i ? PARTS : (RING + 1)'(1));
+      if (words.complete) complete_q <= complete_q + (words.complete_homogeneous ? PARTS : (RING + 1)'(1));
       if (head_valid_i) tail_q <= head_ptr_i;
       else if (stamps_empty_i) tail_q <= stamp_ptr_i;
     end
@@ -133,20 +115,20 @@ module quadrille_tile_ring #(
   assign fetch_homogeneous_o = fetch_word[TAG-2];
 
   always_ff @(posedge clk_i) begin
-    if (push_i) tag_q[write_index] <= {end_i, in_parts, slot_i, tile_x_i, tile_y_i};
-    if (push_i) last_row_q[write_index] <= last_row_i;
-    if (fetch_i) {stamp_end_o, stamp_homogeneous_o, stamp_slot_o, stamp_tile_x_o, stamp_tile_y_o} <= fetch_word;
-    if (fetch_i) stamp_last_row_o <= last_row_q[fetch_index];
+    if (push_i) tag_q[write_index] <= {end_i, in_parts, tile.slot, tile.tile_x, tile.tile_y};
+    if (push_i) last_row_q[write_index] <= tile.last_row;
+    if (fetch_i) {stamp_end, stamp_homogeneous, stamp_slot, stamp_tile_x, stamp_tile_y} <= fetch_word;
+    if (fetch_i) stamp_last_row <= last_row_q[fetch_index];
     {tag_slot_o, tag_tile_x_q, tag_tile_y_q} <= tag_word[TAG-3:0];
-    {emit_slot_o, emit_tile_x_o, emit_tile_y_o} <= {tag_slot_o, tag_tile_x_q, tag_tile_y_q};
+    {emit_slot, emit_tile_x, emit_tile_y} <= {tag_slot_o, tag_tile_x_q, tag_tile_y_q};
   end
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic [VAL-1:0] value_q[0:ENTRIES-1];
 
     always_ff @(posedge clk_i) begin
-      if (push_i) value_q[write_index] <= lin_value_i[g*VAL+:VAL];
-      emit_lin_value_o[g*VAL+:VAL] <= value_q[emit_index_q];
+      if (push_i) value_q[write_index] <= tile.lin_value[g*VAL+:VAL];
+      emit_lin_value[g*VAL+:VAL] <= value_q[emit_index_q];
     end
 
     if (g < 5) begin : gen_stamp
@@ -161,14 +143,14 @@ module quadrille_tile_ring #(
     logic [QCURV-1:0] curv_q[0:ENTRIES-1];
 
     always_ff @(posedge clk_i) begin
-      if (value_write_i[g]) value_q[value_entry_i] <= value_i[(g%BUSES)*QVAL+:QVAL];
-      if (gradient_write_i[g]) gx_q[gradient_entry_i] <= gx_i[(g%BUSES)*QGRAD+:QGRAD];
-      if (gradient_write_i[g]) gy_q[gradient_entry_i] <= gy_i[(g%BUSES)*QGRAD+:QGRAD];
-      if (q_write_i[g]) curv_q[q_entry_i] <= q_i[(g%PAIRS)*QCURV+:QCURV];
-      emit_quad_value_o[g*QVAL+:QVAL] <= value_q[word_index_q];
-      emit_quad_gx_o[g*QGRAD+:QGRAD] <= gx_q[word_index_q];
-      emit_quad_gy_o[g*QGRAD+:QGRAD] <= gy_q[word_index_q];
-      emit_quad_q_o[g*QCURV+:QCURV] <= curv_q[word_index_q];
+      if (words.value_write[g]) value_q[words.value_entry] <= words.value[(g%BUSES)*QVAL+:QVAL];
+      if (words.gradient_write[g]) gx_q[words.gradient_entry] <= words.gx[(g%BUSES)*QGRAD+:QGRAD];
+      if (words.gradient_write[g]) gy_q[words.gradient_entry] <= words.gy[(g%BUSES)*QGRAD+:QGRAD];
+      if (words.q_write[g]) curv_q[words.q_entry] <= words.q[(g%PAIRS)*QCURV+:QCURV];
+      emit_quad_value[g*QVAL+:QVAL] <= value_q[word_index_q];
+      emit_quad_gx[g*QGRAD+:QGRAD] <= gx_q[word_index_q];
+      emit_quad_gy[g*QGRAD+:QGRAD] <= gy_q[word_index_q];
+      emit_quad_q[g*QCURV+:QCURV] <= curv_q[word_index_q];
     end
   end
 

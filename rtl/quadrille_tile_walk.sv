@@ -1,124 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
+`include "quadrille_types.svh"
 
-// Walks a quad's tiles, blocks of 8x8 tiles first, both in serpentine order, and pushes the tiles that may hold a covered pixel
-// into the tile ring. One step a clock, block or tile; after the last block an end entry.
+// Walks a quad's tiles, blocks of 8x8 tiles first, both in serpentine order, and pushes the tiles that may hold a
+// covered pixel into the tile ring. One step a clock, block or tile; after the last block an end entry.
 //
-// State is the values of the linear functions at the first pixel of the current block and of the current tile, moved by exact
-// forward differences. The test is conservative over the extent: each edge function is 'somewhere positive', 'somewhere negative'
-// or both, by its value and edge_reach. The quadratic functions of a tile that is pushed are tile_context's.
+// State is the values of the linear functions at the first pixel of the current block and of the current tile, moved by
+// exact forward differences. The test is conservative over the extent: each edge function is 'somewhere positive',
+// 'somewhere negative' or both, by its value and edge_reach. The quadratic functions of a tile that is pushed are
+// tile_context's.
 //
-// A homogeneous quad has no bounding box: its tiles begin at the screen's. With bound_i those left of the scissor rectangle and above it
-// are left out: the walk approaches the scissor's first block, a block a clock without a test, stays in its columns of blocks, and pushes no
-// tile before its first one. The order is that of the whole walk: in rows of blocks that go to the left, the approach ends at the right.
+// A homogeneous quad has no bounding box: its tiles begin at the screen's. With bound_i those left of the scissor
+// rectangle and above it are left out: the walk approaches the scissor's first block, a block a clock without a test,
+// stays in its columns of blocks, and pushes no tile before its first one. The order is that of the whole walk: in rows
+// of blocks that go to the left, the approach ends at the right.
 //
-// The walk steps on before it knows what a test says: the test's signs come in a register, the hit is known the clock after, and a tile
-// that is hit is in the register that pushes in the clock after that. Blocks are walked one ahead: a hit turns back to the block
-// before, and the next one is ready when its tiles are done. A push that must wait stops everything, but the next quad comes in while the
-// end entry waits.
+// The walk steps on before it knows what a test says: the test's signs come in a register, the hit is known the clock
+// after, and a tile that is hit is in the register that pushes in the clock after that. Blocks are walked one ahead: a
+// hit turns back to the block before, and the next one is ready when its tiles are done. A push that must wait stops
+// everything, but the next quad comes in while the end entry waits.
 module quadrille_tile_walk #(
-    localparam int TC = quadrille_pkg::TC_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int REACH = quadrille_pkg::REACH_BITS,
-    localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int TC = quadrille_pkg::TC_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
-    input logic [1:0] cull_i,
-    input logic reject_tiles_i,  // skip bit 0
-    input logic bound_i,  // skip bit 3
-    input logic [V:0] scissor_x0_i,
-    input logic [V:0] scissor_y0_i,
+    input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
     // Setup in
-    input logic setup_done_i,
+    input logic setup_valid_i,
     output logic take_o,
-    input logic [SLOT-1:0] slot_i,
-    input logic [TC-1:0] tile_x0_i,
-    input logic [TC-1:0] tile_y0_i,
-    input logic [TC-1:0] tiles_x_i,
-    input logic [TC-1:0] tiles_y_i,
-    input logic [TILE_LOG2-1:0] last_row_i,  // last pixel row of the quad, in its tile
-    input logic homogeneous_i,
-    input logic [3:0] visible_i,
-    input logic [6*VAL-1:0] lin_value_i,
-    input logic [6*GRAD-1:0] lin_gx_i,
-    input logic [6*GRAD-1:0] lin_gy_i,
-    input logic [5*REACH-1:0] fall_tile_i,
-    input logic [5*REACH-1:0] rise_tile_i,
-    input logic [5*REACH-1:0] fall_block_i,
-    input logic [5*REACH-1:0] rise_block_i,
+    input logic [quadrille_pkg::SETUP_BITS-1:0] setup_i,
     // Tile out; an end entry has a slot alone
     input logic ready_i,
-    output logic push_o,
-    output logic count_block_o,  // for performance_counters, else 0: a block was tested
-    output logic count_enter_o,  // and its tiles will be
-    output logic count_block_hidden_o,  // or it is hit, and hidden
-    output logic count_tile_o,  // a tile was tested
-    output logic count_hidden_o,  // hit, and hidden
-    output logic count_busy_o,  // a quad is here
-    output logic end_o,
-    output logic [SLOT-1:0] slot_o,
-    output logic [TC-1:0] tile_x_o,
-    output logic [TC-1:0] tile_y_o,
-    output logic [TC-1:0] column_o,  // from the quad's first tile
-    output logic [TC-1:0] row_o,
-    output logic [TILE_LOG2-1:0] last_row_o,  // the tile has no covered pixel below
-    output logic [6*VAL-1:0] lin_value_o,
-    // Hidden tiles (hierarchical_z): the position under test; a clock later whether it was a tile, which the quad covers, and is hidden
-    output logic go_o,
-    output logic [TC-1:0] test_column_o,
-    output logic [TC-1:0] test_row_o,
-    output logic block_test_o,  // or a block is under test: its first tile, and those behind that
-    output logic [TC-1:0] block_column_o,
-    output logic [TC-1:0] block_row_o,
-    output logic [quadrille_pkg::BLOCK_LOG2-1:0] block_last_column_o,
-    output logic [quadrille_pkg::BLOCK_LOG2-1:0] block_last_row_o,
-    output logic tested_o,
-    output logic covered_o,
-    input logic hidden_i,
-    input logic block_hidden_i  // or whether the block is
+    output logic push_o, end_o,
+    output logic [quadrille_pkg::TILE_BITS-1:0] tile_o,
+    // Hidden tiles: what is under test; a clock later whether it is hidden, a tile or a block
+    output logic [quadrille_pkg::TEST_BITS-1:0] test_o,
+    input logic hidden_i, block_hidden_i,
+    // For performance_counters, else 0: a block was tested, its tiles will be, or it is hit and hidden; a tile was
+    // tested, or is hit and hidden; a quad is here
+    output logic [5:0] events_o
 );
+  `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
+  `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup)
+  logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] tile_slot;
+  logic [quadrille_pkg::TC_BITS-1:0] tile_tile_x, tile_tile_y, tile_column, tile_row;
+  logic [quadrille_pkg::TILE_LOG2-1:0] tile_last_row;
+  logic [6*quadrille_pkg::VAL_BITS-1:0] tile_lin_value;
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
   localparam int TL = TILE_LOG2;  // log2 of a tile step in pixels
-  localparam int BL = TILE_LOG2 + BLOCK_LOG2;  // log2 of a block step in pixels
 
-  localparam logic [2:0] IDLE = 3'd0;
-  localparam logic [2:0] BLOCK = 3'd1;
-  localparam logic [2:0] WALK = 3'd2;
-  localparam logic [2:0] FINISH = 3'd3;
-  localparam logic [2:0] FLUSH = 3'd4;  // until the end entry is in the ring, or the next quad comes
-  localparam logic [2:0] APPROACH = 3'd5;  // to the scissor's first block
+  // FLUSH: until the end entry is in the ring, or the next quad comes. APPROACH: to the scissor's first block.
+  typedef enum logic [2:0] {IDLE, BLOCK, WALK, FINISH, FLUSH, APPROACH} state_t;
+  state_t state_q;
 
+  logic [TC-1:0] test_column, test_row, block_column, block_row;
+  logic [BLOCK_LOG2-1:0] block_last_column, block_last_row;
+  logic covered;
   logic go;  // everything moves
   logic may_cover, hit, hit_tile, enter_walk;
 
-  // ---- Position and control -----------------------------------------------------------------------------------------------
+  // ---- Position and control ----------------------------------------------------------------------------------------
   // block_*: the next block to test, while more_q; walk_*: the block whose tiles are tested.
-  logic [2:0] state_q;
   logic more_q;
   logic [TC-1:0] tile_x0_q, tile_y0_q;
   logic [TC-1:0] last_x_q, last_y_q;  // of the quad's tiles
-  logic [TC-1:0] first_x, first_y, first_x_q, first_y_q;  // the scissor's first tile, of an ordinary quad 0: its box is inside
+  // the scissor's first tile, of an ordinary quad 0: its box is inside
+  logic [TC-1:0] first_x, first_y, first_x_q, first_y_q;
   logic [TC-1:0] block_x_q, block_y_q, block_y_next;
   logic [TC-1:0] blocks_x_q, blocks_y_q;  // blocks behind it in its row, rows of blocks behind it
   logic block_left_q;
   logic [TC-1:0] walk_x_q, walk_y_q;
-  logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q;
-  logic [BLOCK_LOG2-1:0] tile_x_q, tile_y_q;
+  logic [BLOCK_LOG2-1:0] tile_last_x_q, tile_last_y_q, tile_x_q, tile_y_q;
   logic tile_left_q;
   logic [SLOT-1:0] slot_q, slot_q1;
   logic [TILE_LOG2-1:0] last_row_q;
   logic [3:0] visible_q;
-  logic empty;
-  logic in_approach, in_block, in_walk, test_block, step_block;
-  logic tile_end, block_end, first_column, last_column, last_row, one_column;
+  logic empty, in_approach, in_block, in_walk, test_block, step_block, tile_end, block_end, first_column, last_column;
+  logic last_row, one_column;
   logic apart;  // the scissor's first block is another than the quad's
   logic arrived;
 
-  // The step after this clock's test: from the end of a row down, or to the left. Known a clock ahead, for it steers the adders.
+  // The step after this clock's test: from the end of a row down, or to the left. Known a clock ahead, for it steers
+  // the adders.
   logic row_end_q, back_q;
   logic [BLOCK_LOG2-1:0] tiles_q;  // behind the tile in its row
 
@@ -130,15 +94,15 @@ module quadrille_tile_walk #(
   logic [BLOCK_LOG2-1:0] tile_last_x_q1, tile_last_y_q1;
 
   // The last tile's entry has its functions' vertices when the end entry is where pushes wait.
-  assign take_o = setup_done_i && (state_q == IDLE || (state_q == FLUSH && end_q2));
-  assign empty = tiles_x_i == '0 || tiles_y_i == '0;
-  assign first_x = (bound_i && homogeneous_i) ? TC'(scissor_x0_i >> TL) : '0;
-  assign first_y = (bound_i && homogeneous_i) ? TC'(scissor_y0_i >> TL) : '0;
+  assign take_o = setup_valid_i && (state_q == IDLE || (state_q == FLUSH && end_q2));
+  assign empty = setup.tiles_x == '0 || setup.tiles_y == '0;
+  assign first_x = (state.skip[3] && setup.homogeneous) ? TC'(state.scissor_x0 >> TL) : '0;
+  assign first_y = (state.skip[3] && setup.homogeneous) ? TC'(state.scissor_y0 >> TL) : '0;
   assign apart = first_x >> BLOCK_LOG2 != '0 || first_y >> BLOCK_LOG2 != '0;
   assign in_approach = state_q == APPROACH;
   assign in_block = state_q == BLOCK;
   assign in_walk = state_q == WALK;
-  assign hit = may_cover || !reject_tiles_i;
+  assign hit = may_cover || !state.skip[0];
   assign hit_tile = tile_q1 && hit && !outside_q1;
   assign enter_walk = block_q1 && hit && !block_hidden_i;
   assign test_block = in_block && more_q && !enter_walk;
@@ -184,17 +148,17 @@ module quadrille_tile_walk #(
 
   always_ff @(posedge clk_i) begin
     if (take_o) begin
-      slot_q <= slot_i;
-      last_row_q <= last_row_i;
-      visible_q <= visible_i;
-      tile_x0_q <= tile_x0_i;
-      tile_y0_q <= tile_y0_i;
-      last_x_q <= tiles_x_i - TC'(1);
-      last_y_q <= tiles_y_i - TC'(1);
+      slot_q <= setup.slot;
+      last_row_q <= setup.last_row;
+      visible_q <= setup.visible;
+      tile_x0_q <= setup.tile_x0;
+      tile_y0_q <= setup.tile_y0;
+      last_x_q <= setup.tiles_x - TC'(1);
+      last_y_q <= setup.tiles_y - TC'(1);
       first_x_q <= first_x;
       first_y_q <= first_y;
-      blocks_x_q <= (tiles_x_i - TC'(1)) >> BLOCK_LOG2;
-      blocks_y_q <= (tiles_y_i - TC'(1)) >> BLOCK_LOG2;
+      blocks_x_q <= (setup.tiles_x - TC'(1)) >> BLOCK_LOG2;
+      blocks_y_q <= (setup.tiles_y - TC'(1)) >> BLOCK_LOG2;
       block_x_q <= '0;
       block_y_q <= '0;
       block_left_q <= 1'b0;
@@ -216,11 +180,11 @@ module quadrille_tile_walk #(
       slot_q1 <= slot_q;
       block_x_q1 <= block_x_q;
       block_y_q1 <= block_y_q;
-      tile_last_x_q1 <= block_last_column_o;
-      tile_last_y_q1 <= block_last_row_o;
-      outside_q1 <= test_column_o < first_x_q || test_row_o < first_y_q;
-      column_q1 <= test_column_o;
-      row_q1 <= test_row_o;
+      tile_last_x_q1 <= block_last_column;
+      tile_last_y_q1 <= block_last_row;
+      outside_q1 <= test_column < first_x_q || test_row < first_y_q;
+      column_q1 <= test_column;
+      row_q1 <= test_row;
       if (enter_walk) begin
         walk_x_q <= block_x_q1;
         walk_y_q <= block_y_q1;
@@ -242,7 +206,7 @@ module quadrille_tile_walk #(
 
   always_ff @(posedge clk_i) begin
     if (take_o) begin
-      row_end_q <= apart ? first_y >> BLOCK_LOG2 != '0 : tiles_x_i <= TC'(quadrille_pkg::BLOCK_TILES);
+      row_end_q <= apart ? first_y >> BLOCK_LOG2 != '0 : setup.tiles_x <= TC'(quadrille_pkg::BLOCK_TILES);
       back_q <= 1'b0;
     end else if (go) begin
       if (enter_walk) begin
@@ -275,78 +239,25 @@ module quadrille_tile_walk #(
     end
   end
 
-  // ---- Linear functions and the extent test -------------------------------------------------------------------------------
-  // Outside WALK the tile is the first of the block to test. One set of adders steps blocks and tiles: a step to the left subtracts: ~x,
-  // and the one that is missing enters as carry ({a, 1} + {b, carry}). After a block's last tile comes the next block, which is there.
+  // ---- Extent test -------------------------------------------------------------------------------------------------
   logic [4:0] some_pos_q1, some_neg_q1;
-  logic [6*VAL-1:0] lin_value_q1;
 
-  for (genvar g = 0; g < 6; g++) begin : gen_linear
-    logic [GRAD-1:0] gx_q, gy_q;
-    logic [VAL-1:0] block_q, tile_q;
-    logic [VAL-1:0] slope, move, next;
-
-    assign slope = VAL'($signed(row_end_q ? gy_q : gx_q));
-    assign move = (in_walk ? slope << TL : slope << BL) ^ {VAL{back_q}};
-    assign next = VAL'(({tile_q, 1'b1} + {move, back_q}) >> 1);
-
-    always_ff @(posedge clk_i) begin
-      if (take_o) begin
-        gx_q <= lin_gx_i[g*GRAD+:GRAD];
-        gy_q <= lin_gy_i[g*GRAD+:GRAD];
-        block_q <= lin_value_i[g*VAL+:VAL];
-        tile_q <= lin_value_i[g*VAL+:VAL];
-      end else if (go) begin
-        if (step_block) block_q <= next;
-        if (enter_walk) tile_q <= lin_value_q1[g*VAL+:VAL];
-        else if (tile_end) tile_q <= block_q;
-        else if (in_walk || step_block) tile_q <= next;
-      end
-      if (go) begin
-        lin_value_q1[g*VAL+:VAL] <= tile_q;
-        lin_value_o[g*VAL+:VAL] <= lin_value_q1[g*VAL+:VAL];
-      end
-    end
-
-    if (g < 5) begin : gen_test
-      logic [REACH-1:0] fall_tile_q, fall_block_q, rise_tile_q, rise_block_q;
-      logic [VAL-1:0] low, high;
-
-      always_ff @(posedge clk_i) begin
-        if (take_o) begin
-          fall_tile_q <= fall_tile_i[g*REACH+:REACH];
-          fall_block_q <= fall_block_i[g*REACH+:REACH];
-          rise_tile_q <= rise_tile_i[g*REACH+:REACH];
-          rise_block_q <= rise_block_i[g*REACH+:REACH];
-        end
-        if (go) begin
-          some_neg_q1[g] <= low[VAL-1];
-          some_pos_q1[g] <= !high[VAL-1];
-        end
-      end
-
-      assign low = tile_q + VAL'($signed(in_walk ? fall_tile_q : fall_block_q));
-      assign high = tile_q + VAL'($signed(in_walk ? rise_tile_q : rise_block_q));
-
-      logic unused;
-      assign unused = ^{low, high};
-    end
-  end
+  quadrille_walk_values u_values (
+      .clk_i, .take_i(take_o), .setup_i, .go_i(go), .in_walk_i(in_walk), .step_block_i(step_block),
+      .enter_walk_i(enter_walk), .tile_end_i(tile_end), .row_end_i(row_end_q), .back_i(back_q),
+      .some_pos_o(some_pos_q1), .some_neg_o(some_neg_q1), .lin_value_o(tile_lin_value)
+  );
 
   logic back, front;
 
   quadrille_inside_expression u_inside (
-      .cull_i,
-      .visible_i(visible_q),
-      .pos_i(some_pos_q1),
-      .neg_i(some_neg_q1),
-      .back_o(back),
+      .cull_i(state.cull), .visible_i(visible_q), .pos_i(some_pos_q1), .neg_i(some_neg_q1), .back_o(back),
       .front_o(front)
   );
 
   assign may_cover = back || front;
 
-  // ---- Push ---------------------------------------------------------------------------------------------------------------
+  // ---- Push --------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {push_q2, end_q2} <= '0;
     else if (go) {push_q2, end_q2} <= {(hit_tile && !hidden_i) || end_q1, end_q1};
@@ -354,44 +265,49 @@ module quadrille_tile_walk #(
 
   always_ff @(posedge clk_i) begin
     if (go) begin
-      slot_o <= slot_q1;
-      {column_o, row_o} <= {column_q1, row_q1};
-      last_row_o <= (row_q1 == last_y_q) ? last_row_q : '1;
-      tile_x_o <= tile_x0_q + column_q1;
-      tile_y_o <= tile_y0_q + row_q1;
+      tile_slot <= slot_q1;
+      {tile_column, tile_row} <= {column_q1, row_q1};
+      tile_last_row <= (row_q1 == last_y_q) ? last_row_q : '1;
+      tile_tile_x <= tile_x0_q + column_q1;
+      tile_tile_y <= tile_y0_q + row_q1;
     end
   end
 
-  if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
-    assign count_block_o = block_q1 && go;
-    assign count_enter_o = enter_walk && go;
-    assign count_block_hidden_o = go && block_q1 && hit && block_hidden_i;
-    assign count_tile_o = tile_q1 && go;
-    assign count_hidden_o = go && hit_tile && hidden_i;
-    assign count_busy_o = state_q != IDLE;
-  end else begin : gen_no_count
-    assign {count_block_o, count_enter_o, count_block_hidden_o, count_tile_o, count_hidden_o, count_busy_o} = '0;
-  end
+  assign events_o = {6{quadrille_pkg::PERFORMANCE_COUNTERS != 0}} & {
+    block_q1 && go,
+    enter_walk && go,
+    go && block_q1 && hit && block_hidden_i,
+    tile_q1 && go,
+    go && hit_tile && hidden_i,
+    state_q != IDLE
+  };
 
-  assign go_o = go;
-  assign test_column_o = (walk_x_q << BLOCK_LOG2) | TC'(tile_x_q);
-  assign test_row_o = (walk_y_q << BLOCK_LOG2) | TC'(tile_y_q);
-  assign block_test_o = test_block && go;
-  assign block_column_o = block_x_q << BLOCK_LOG2;
-  assign block_row_o = block_y_q << BLOCK_LOG2;
-  assign block_last_column_o = last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
-  assign block_last_row_o = last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
-  assign tested_o = tile_q1;
+  assign tile_o = {tile_slot, tile_tile_x, tile_tile_y, tile_column, tile_row, tile_last_row, tile_lin_value};
+  assign test_o = {
+    go,
+    test_column,
+    test_row,
+    test_block && go,
+    block_column,
+    block_row,
+    block_last_column,
+    block_last_row,
+    tile_q1,
+    covered
+  };
+  assign test_column = (walk_x_q << BLOCK_LOG2) | TC'(tile_x_q);
+  assign test_row = (walk_y_q << BLOCK_LOG2) | TC'(tile_y_q);
+  assign block_column = block_x_q << BLOCK_LOG2;
+  assign block_row = block_y_q << BLOCK_LOG2;
+  assign block_last_column = last_column ? last_x_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
+  assign block_last_row = last_row ? last_y_q[BLOCK_LOG2-1:0] : BLOCK_LOG2'(quadrille_pkg::BLOCK_TILES - 1);
 
   if (quadrille_pkg::HIERARCHICAL_Z_BITS != 0) begin : gen_covered
     quadrille_covered_square u_covered (
-        .cull_i,
-        .some_pos_i(some_pos_q1),
-        .some_neg_i(some_neg_q1),
-        .covered_o
+        .cull_i(state.cull), .some_pos_i(some_pos_q1), .some_neg_i(some_neg_q1), .covered_o(covered)
     );
   end else begin : gen_not_covered
-    assign covered_o = 1'b0;
+    assign covered = 1'b0;
   end
 
   assign go = !push_q2 || ready_i;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a clock for each of
-// PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's other registers.
+`include "quadrille_types.svh"
+
+// The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a
+// clock for each of PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's
+// other registers.
 //
-// Two users: tile_context (tile_*), which comes first and then has all units, and quad_setup. A job is a kind and a function, whose pair
-// of vertices i, j (quadrille_pkg::pair_first, pair_second) it takes from its user's four vertices:
+// Two users: tile_context (tile_*), which comes first and then has all units, and quad_setup. A job is a kind and a
+// function, whose pair of vertices i, j (quadrille_pkg::pair_first, pair_second) it takes from its user's four
+// vertices:
 //
 //     kind                result0              result1
 //     EDGE                Xi Yj - Yi Xj        (Xj - Xi)^2 + (Yi - Yj)^2
@@ -15,66 +19,44 @@
 //     DET_VALUE           Wi (value's low 32 bits, unsigned)           Wi (value's high bits)
 //     DET_GRADIENT        Xi gx + Yi gy with their low 32 bits         with their high bits
 //
-// DET: the edge function that comes with the job. Flat vectors over the pairs of units: that of pair p at [p*WIDTH +: WIDTH].
+// DET: the edge function that comes with the job. Flat vectors over the pairs of units: that of pair p at [p*WIDTH +:
+// WIDTH].
 module quadrille_vertex_products #(
-    localparam int T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS,
-    localparam int V = quadrille_pkg::VIEWPORT_BITS,
-    localparam int VAL = quadrille_pkg::VAL_BITS,
-    localparam int GRAD = quadrille_pkg::GRAD_BITS,
-    localparam int RISE = quadrille_pkg::RISE_BITS,
-    localparam int OUT = quadrille_pkg::DOT_OUT_BITS,
-    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
+    localparam int T = quadrille_pkg::T_BITS, W = quadrille_pkg::W_BITS, V = quadrille_pkg::VIEWPORT_BITS,
+    localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, RISE = quadrille_pkg::RISE_BITS,
+    localparam int OUT = quadrille_pkg::DOT_OUT_BITS, PAIRS = quadrille_pkg::PRODUCT_PAIRS
 ) (
-    input logic clk_i,
-    // A tile's jobs
-    input logic tile_valid_i,
-    input logic [PAIRS*3-1:0] tile_kind_i,
-    input logic [PAIRS*4-1:0] tile_function_i,
-    input logic [4*T-1:0] tile_x_i,
-    input logic [4*T-1:0] tile_y_i,
-    input logic [4*W-1:0] tile_w_i,
-    input logic [V:0] offset_x_i,  // pixels; still there a clock after the job
-    input logic [V:0] offset_y_i,
-    // The setup's, when there is no tile's
-    input logic [PAIRS*3-1:0] setup_kind_i,
-    input logic [PAIRS*4-1:0] setup_function_i,
-    input logic [4*T-1:0] setup_x_i,
-    input logic [4*T-1:0] setup_y_i,
-    input logic [4*W-1:0] setup_w_i,
-    input logic [V:0] setup_offset_x_i,  // pixels; a clock after the job
-    input logic [V:0] setup_offset_y_i,
-    input logic [PAIRS*VAL-1:0] edge_value_i,
-    input logic [PAIRS*GRAD-1:0] edge_gx_i,
-    input logic [PAIRS*GRAD-1:0] edge_gy_i,
-    // A clock after a job: its pair of vertices, and how far they are apart: Xj - Xi, Yi - Yj
-    output logic [PAIRS*T-1:0] xi_o,
-    output logic [PAIRS*T-1:0] yi_o,
-    output logic [PAIRS*T-1:0] xj_o,
-    output logic [PAIRS*T-1:0] yj_o,
-    output logic [PAIRS*RISE-1:0] apart_x_o,
-    output logic [PAIRS*RISE-1:0] apart_y_o,
-    // VERTEX_PRODUCT_CLOCKS after it
-    output logic [PAIRS*OUT-1:0] result0_o,
-    output logic [PAIRS*OUT-1:0] result1_o
+    input logic clk_i, tile_valid_i,
+    input logic [quadrille_pkg::JOBS_BITS-1:0] tile_i,  // the offset is still there a clock later
+    input logic [quadrille_pkg::JOBS_BITS-1:0] setup_i,  // taken when there is none of a tile
+    input logic [PAIRS*(VAL+2*GRAD)-1:0] edges_i,  // with the setup's jobs: value, gx, gy
+    output logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_o
 );
+  localparam int EDGE = VAL + 2 * GRAD;
+  `QUADRILLE_IN(`QUADRILLE_JOBS_T, tile)
+  `QUADRILLE_IN(`QUADRILLE_JOBS_T, setup)
   localparam int DOT = quadrille_pkg::DOT_BITS;
 
   logic [4*T-1:0] x, y;
   logic [4*W-1:0] w;
   logic tile_q;
   logic [V:0] offset_x, offset_y;
+  logic [PAIRS*T-1:0] all_xi, all_yi, all_xj, all_yj;
+  logic [PAIRS*RISE-1:0] all_apart_x, all_apart_y;
+  logic [PAIRS*OUT-1:0] result0, result1;
 
-  assign x = tile_valid_i ? tile_x_i : setup_x_i;
-  assign y = tile_valid_i ? tile_y_i : setup_y_i;
-  assign w = tile_valid_i ? tile_w_i : setup_w_i;
-  assign offset_x = tile_q ? offset_x_i : setup_offset_x_i;
-  assign offset_y = tile_q ? offset_y_i : setup_offset_y_i;
+  assign products_o = {all_xi, all_yi, all_xj, all_yj, all_apart_x, all_apart_y, result0, result1};
+
+  assign x = tile_valid_i ? tile.x : setup.x;
+  assign y = tile_valid_i ? tile.y : setup.y;
+  assign w = tile_valid_i ? tile.w : setup.w;
+  assign offset_x = tile_q ? tile.offset_x : setup.offset_x;
+  assign offset_y = tile_q ? tile.offset_y : setup.offset_y;
 
   always_ff @(posedge clk_i) tile_q <= tile_valid_i;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_pair
-    // ---- Pair -------------------------------------------------------------------------------------------------------------
+    // ---- Pair -------------------------------------------------------------------------------------------------------
     logic [3:0] function_d;
     logic [T-1:0] xi_d, xj_d, yi_d, yj_d, xi, xj, yi, yj;
     logic [W-1:0] wi_d, wj_d, wi, wj;
@@ -82,41 +64,32 @@ module quadrille_vertex_products #(
     logic [63:0] edge_value, edge_gx, edge_gy;
     logic [RISE-1:0] apart_x_d, apart_y_d;
 
-    assign function_d = tile_valid_i ? tile_function_i[p*4+:4] : setup_function_i[p*4+:4];
+    assign function_d = tile_valid_i ? tile.functions[p*4+:4] : setup.functions[p*4+:4];
 
     quadrille_setup_pair u_pair (
-        .function_i(function_d),
-        .x_i(x),
-        .y_i(y),
-        .w_i(w),
-        .xi_o(xi_d),
-        .yi_o(yi_d),
-        .wi_o(wi_d),
-        .xj_o(xj_d),
-        .yj_o(yj_d),
-        .wj_o(wj_d)
+        .function_i(function_d), .x_i(x), .y_i(y), .w_i(w), .xi_o(xi_d), .yi_o(yi_d), .wi_o(wi_d), .xj_o(xj_d),
+        .yj_o(yj_d), .wj_o(wj_d)
     );
 
     always_ff @(posedge clk_i) begin
-      kind <= tile_valid_i ? tile_kind_i[p*3+:3] : setup_kind_i[p*3+:3];
+      kind <= tile_valid_i ? tile.kind[p*3+:3] : setup.kind[p*3+:3];
       {xi, yi, wi, xj, yj, wj} <= {xi_d, yi_d, wi_d, xj_d, yj_d, wj_d};
-      edge_value <= 64'($signed(edge_value_i[p*VAL+:VAL]));
-      edge_gx <= 64'($signed(edge_gx_i[p*GRAD+:GRAD]));
-      edge_gy <= 64'($signed(edge_gy_i[p*GRAD+:GRAD]));
+      edge_value <= 64'($signed(edges_i[p*EDGE+2*GRAD+:VAL]));
+      edge_gx <= 64'($signed(edges_i[p*EDGE+GRAD+:GRAD]));
+      edge_gy <= 64'($signed(edges_i[p*EDGE+:GRAD]));
     end
 
     assign apart_x_d = RISE'($signed(xj)) - RISE'($signed(xi));
     assign apart_y_d = RISE'($signed(yi)) - RISE'($signed(yj));
-    assign xi_o[p*T+:T] = xi;
-    assign yi_o[p*T+:T] = yi;
-    assign xj_o[p*T+:T] = xj;
-    assign yj_o[p*T+:T] = yj;
-    assign apart_x_o[p*RISE+:RISE] = apart_x_d;
-    assign apart_y_o[p*RISE+:RISE] = apart_y_d;
+    assign all_xi[p*T+:T] = xi;
+    assign all_yi[p*T+:T] = yi;
+    assign all_xj[p*T+:T] = xj;
+    assign all_yj[p*T+:T] = yj;
+    assign all_apart_x[p*RISE+:RISE] = apart_x_d;
+    assign all_apart_y[p*RISE+:RISE] = apart_y_d;
 
-    // ---- Operands ---------------------------------------------------------------------------------------------------------
-    logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y;
-    logic [DOT-1:0] a0, b0, c0, d0, a1, b1, c1, d1;
+    // ---- Operands --------------------------------------------------------------------------------------------------
+    logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y, a0, b0, c0, d0, a1, b1, c1, d1;
     logic subtract0, subtract1;
 
     assign x_i = DOT'($signed(xi));
@@ -168,23 +141,11 @@ module quadrille_vertex_products #(
     end
 
     quadrille_dot_unit u_dot0 (
-        .clk_i,
-        .a_i(a0),
-        .b_i(b0),
-        .c_i(c0),
-        .d_i(d0),
-        .subtract_i(subtract0),
-        .result_o(result0_o[p*OUT+:OUT])
+        .clk_i, .a_i(a0), .b_i(b0), .c_i(c0), .d_i(d0), .subtract_i(subtract0), .result_o(result0[p*OUT+:OUT])
     );
 
     quadrille_dot_unit u_dot1 (
-        .clk_i,
-        .a_i(a1),
-        .b_i(b1),
-        .c_i(c1),
-        .d_i(d1),
-        .subtract_i(subtract1),
-        .result_o(result1_o[p*OUT+:OUT])
+        .clk_i, .a_i(a1), .b_i(b1), .c_i(c1), .d_i(d1), .subtract_i(subtract1), .result_o(result1[p*OUT+:OUT])
     );
   end
 endmodule

@@ -23,6 +23,9 @@ packages=(
   python3-numpy                # the example of the library in Python
 )
 
+page_packages=(nodejs chromium python3-venv)   # model/page
+command -v npm >/dev/null || page_packages+=(npm)   # other packages of nodejs bring it
+
 # install_packages PACKAGE...
 install_packages() {
   local missing=() p

@@ -87,6 +87,9 @@ def measure(args, skip, reader, work):
     return {"cycles": result["cycles_rtl"], "pixels": result["covered_pixels"], "units": by_unit(lines)}
 
 
+PARTS = ("front", "tiles", "hidden_tiles", "pixel", "pixel_pipeline", "pixel_lane", "pixel_functions")  # whose units are counted
+
+
 def by_unit(lines):
     """Toggles and bits of each unit; those of several instances together, what has no unit as quadrille's own."""
     modules = instances()
@@ -97,7 +100,7 @@ def by_unit(lines):
         if not path or path[0] != "u_quadrille":  # the probes of the test bench
             continue
         path = [modules.get(name, name) for name in path[1:]]
-        while len(path) > 1 and path[0] in ("pixel_pipeline", "pixel_lane"):
+        while len(path) > 1 and path[0] in PARTS:
             path.pop(0)
         unit = units.setdefault(path[0] if path else "quadrille", {"toggles": 0, "bits": 0})
         unit["toggles"] += int(toggles)
@@ -110,8 +113,8 @@ def by_unit(lines):
 def instances():
     """Unit of each instance of the machine, its pipeline and its lanes."""
     modules = {}
-    for name in ("quadrille.sv", "quadrille_pixel_pipeline.sv", "quadrille_pixel_lane.sv"):
-        with open(os.path.join(ROOT, "rtl", name), encoding="utf-8") as file:
+    for part in ("", *("_" + part for part in PARTS)):
+        with open(os.path.join(ROOT, "rtl", f"quadrille{part}.sv"), encoding="utf-8") as file:
             text = re.sub(r"//[^\n]*", "", file.read())
         for module, instance in re.findall(r"\b([a-z]\w*)\s+(?:#\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)\s*\(", text):
             modules[instance] = module.removeprefix("quadrille_")

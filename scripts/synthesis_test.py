@@ -14,7 +14,7 @@ import unittest.mock
 
 import timing  # noqa: E402
 import unit_table  # noqa: E402
-from report import synthesis  # noqa: E402
+from report import placement, synthesis  # noqa: E402
 from report.files import Failed  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -92,6 +92,39 @@ REPORT = """Startpoint: _12_ (rising edge-triggered flip-flop clocked by clock)
           998.9999   slack (MET)
 """
 
+# Registers a and b, b's input behind a LUT and a carry chain; a multiplier's register; an input that no register drives.
+DELAYS = """(CELL
+    (CELLTYPE "top")
+    (INSTANCE )
+        (INTERCONNECT \\$clk/O u.a/CLK (0:0:0) (0:0:0))
+        (INTERCONNECT u.a/Q u.lut\\[0\\]/A (100:150:200) (100:150:200))
+        (INTERCONNECT u.a/Q u.sum/FCI (0:0:1000) (0:0:1000))
+        (INTERCONNECT si/O u.lut\\[0\\]/B (9000:9000:9000) (9000:9000:9000))
+        (INTERCONNECT u.lut\\[0\\]/F u.sum/B (10:20:30) (10:20:30))
+        (INTERCONNECT u.sum/F u.v.b/DI (300:300:300) (300:300:300))
+        (INTERCONNECT u.a/Q c/DI (5:5:5) (5:5:5))
+  (CELL
+    (INSTANCE u.a)
+        (IOPATH CLK Q (430:477:525) (430:477:525))
+      (SETUPHOLD (posedge M) (posedge CLK) (0:0:0) (233:268:303))
+  (CELL
+    (INSTANCE u.lut\\[0\\])
+        (IOPATH A F (1:1:236) (1:1:236))
+        (IOPATH B F (1:1:236) (1:1:236))
+  (CELL
+    (INSTANCE u.sum)
+        (IOPATH B F (1:1:443) (1:1:443))
+        (IOPATH FCI F (1:1:100) (1:1:100))
+  (CELL
+    (INSTANCE u.v.b)
+        (IOPATH CLK Q (430:477:525) (430:477:525))
+      (SETUPHOLD (posedge DI) (posedge CLK) (0:0:7) (233:268:303))
+      (SETUPHOLD (negedge DI) (posedge CLK) (0:0:7) (233:268:303))
+  (CELL
+    (INSTANCE c)
+      (SETUPHOLD (posedge DI) (posedge CLK) (0:0:0) (233:268:303))
+"""
+
 
 def run(script, *args, path=None):
     environment = os.environ | ({"PATH": path} if path is not None else {})
@@ -119,7 +152,7 @@ class UnitTable(unittest.TestCase):
         slower = [unit | ({"latency": "5"} if unit["name"] == "sqrt" else {}) for unit in self.units]
         self.assertIn("add up to 48, LATENCY is 47", " ".join(unit_table.faults_of(slower, self.package)))
         fewer = [unit for unit in self.units if unit["name"] != "tile_walk"]
-        self.assertIn("quadrille instantiates tile_walk", " ".join(unit_table.faults_of(fewer, self.package)))
+        self.assertIn("tiles instantiates tile_walk", " ".join(unit_table.faults_of(fewer, self.package)))
         self.package.constants["FP_SUM_STAGES"] += 1
         self.assertIn("fp_sum_stages is 6 in model/port/latency.hpp and 7", " ".join(unit_table.faults_of(self.units, self.package)))
 
@@ -148,9 +181,39 @@ class Reading(unittest.TestCase):
         with self.assertRaises(Failed):
             timing.SlowestPath("No paths found.\n", netlist, "fp_sum")
 
+    def test_slowest_path_to_each_unit(self):
+        delays = placement.Delays(DELAYS.splitlines(keepends=True))
+        found = delays.slowest(lambda cell: cell.split(".")[0])
+        # Clock to output, wire, carry in, wire, set-up. The way through the LUT is shorter: 200 + 236 + 30 + 443 against 1000 + 100. No
+        # register sends the LUT's other input.
+        ns, pins = found["u"]
+        self.assertAlmostEqual(ns, (525 + 1000 + 100 + 300 + 7) / 1000)
+        self.assertEqual(pins, ["u.a/Q", "u.sum/FCI", "u.sum/F", "u.v.b/DI"])
+        self.assertAlmostEqual(found["c"][0], 0.530)
+        # Without the carry the LUT's way is left.
+        lines = [line for line in DELAYS.splitlines() if "FCI" not in line]
+        ns, pins = placement.Delays(lines).slowest(lambda cell: "all")["all"]
+        self.assertAlmostEqual(ns, (525 + 200 + 236 + 30 + 443 + 300 + 7) / 1000)
+        self.assertEqual(pins[-3:], ["u.sum/B", "u.sum/F", "u.v.b/DI"])
+
+    def test_units_of_placed_cells(self):
+        def module(cells, **attributes):
+            return {"attributes": attributes, "cells": {name: {"type": kind} for name, kind in cells.items()}}
+
+        modules = {"timing_wrapper": module({"u_unit": "quadrille", "q": "TRELLIS_FF"}), "TRELLIS_FF": module({}, blackbox="1"),
+                   "quadrille": module({"u_pixel.gen[0].u_sqrt": "$paramod$12\\quadrille_sqrt", "x": "TRELLIS_FF"}),
+                   "$paramod$12\\quadrille_sqrt": module({"u_p": "quadrille_fp_multiply"}), "quadrille_fp_multiply": module({})}
+        hierarchy = placement.Hierarchy(modules, "timing_wrapper")
+        for cell, unit in (("u_unit.u_pixel.gen[0].u_sqrt.u_p.sig_q[3]", "sqrt"), ("u_unit.u_pixel.gen[0].u_sqrt.t", "sqrt"),
+                           ("u_unit.u_pixel.gen[0].q", "the rest"), ("u_unit.x", "the rest"), ("q", None), ("$nextpnr_CCU2C_1$CCU2_COMB0", None)):
+            self.assertEqual(hierarchy.unit_of(cell), unit, cell)
+        design = {"modules": {"top": {"attributes": {"top": "1"}, "cells": {
+            "u_unit.x": {"type": "TRELLIS_FF", "attributes": {"NEXTPNR_BEL": "X68/Y11/SLICED.FF1"}}, "clk": {"type": "DCCA", "attributes": {}}}}}}
+        self.assertEqual(list(placement.places(design, hierarchy)), [(68, 11, "TRELLIS_FF", "the rest")])
+
     def test_every_port_of_a_wrapped_unit_is_registered(self):
         ports = {"clk_i": ("input", 1), "rst_ni": ("input", 1), "a_i": ("input", 5), "b_i": ("input", 2), "x_o": ("output", 3)}
-        text, registers = timing.wrapped("unit", ports, [["TERMS", "4"]])
+        text, registers = placement.wrapped("unit", ports, [["TERMS", "4"]])
         self.assertEqual(registers, 7 + 2 * 3 + 1)
         self.assertIn("unit #(.TERMS(4)) u_unit (.clk_i(clk), .rst_ni(rst_q), .a_i(in_q[0 +: 5]), .b_i(in_q[5 +: 2]), .x_o(out[0 +: 3]));", text)
 
@@ -176,7 +239,7 @@ class Errors(unittest.TestCase):
         with tempfile.TemporaryDirectory() as tools:
             for name in ("sta", "yosys", "nextpnr-ecp5"):  # that are not to be run
                 os.symlink("/bin/false", os.path.join(tools, name))
-            for script in (["size.py"], ["timing.py", "normalise", "--target", "ecp5"]):
+            for script in (["size.py"], ["place.py"], ["timing.py", "normalise", "--target", "ecp5"]):
                 self.fails(2, "significand_bits", *script, "significand_bit=12", path=tools)
                 self.fails(2, "expected KEY=VALUE", *script, "12", path=tools)
                 self.fails(2, "no SystemVerilog", *script, "--rtl", tools, path=tools)
@@ -204,6 +267,22 @@ class WithTheTools(unittest.TestCase):
         # Four times the partial products, twice the columns of the final adder.
         self.assertTrue(2.5 < found[16]["area_um2"] / found[8]["area_um2"] < 4.5, found)
         self.assertGreater(found[16]["ns"], found[8]["ns"])
+
+    def test_placed_on_an_ecp5(self):
+        with tempfile.TemporaryDirectory() as directory:
+            result = run("place.py", "--unit", "sqrt", "--config", "small", "--device", "45k", "--seed", "7", "--out", directory, "--json", "-")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            found = json.loads(result.stdout)
+            self.assertEqual((found["device"], found["size"]["DSP"], found["seeds"][0]["seed"]), ("45k", 2, 7))
+            self.assertEqual(found["seeds"][0]["used"]["MULT18X18D"], [2, 72])
+            paths = found["seeds"][0]["paths"]
+            self.assertEqual(paths[0]["unit"], "sqrt")
+            # nextpnr's own slowest path is that of the delays that it wrote.
+            self.assertAlmostEqual(paths[0]["ns"], 1000 / found["seeds"][0]["mhz"], delta=0.01)
+            self.assertGreater(os.path.getsize(os.path.join(directory, "placement.png")), 5000)
+            # A seed that is there is read again.
+            again = run("place.py", "--unit", "sqrt", "--config", "small", "--device", "45k", "--seed", "7", "--out", directory, "--json", "-")
+            self.assertEqual(json.loads(again.stdout), found)
 
     def test_output_bits_that_are_one_net(self):
         # Yosys would write them as an assignment to a concatenation, which OpenSTA does not read.

@@ -2,16 +2,20 @@
 # Sets up and runs a tier of the tests (scripts/README.md):
 #   scripts/test.sh --quick     a minute once built
 #   scripts/test.sh             default tier, as in CI: 20 minutes
-#   scripts/test.sh --full      everything, an hour
+#   scripts/test.sh --full      everything but Python and the page, an hour
+#   scripts/test.sh --python    the Python package, 4 minutes from nothing built; needs PyPI
+#   scripts/test.sh --page      the page in a browser, 6 minutes; needs PyPI and npm
 # Other arguments go to ctest, alone or after a tier: --quick -L model.
 # Exit status: 0 all passed, 1 not.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
 case "${1:-}" in
+  --python) exec "$root/model/python/tests/run.sh" "${@:2}" ;;
   --quick) tier=quick targets=(quick_tests) select=(-L '^quick$') ;;
-  --full) tier=full targets=() select=(-LE '^sample$') ;;
+  --full) tier=full targets=() select=(-LE '^(sample|page)$') ;;
+  --page) tier=page targets=(quadrille page) select=(-L '^page$') packages+=("${page_packages[@]}") ;;
   "") tier=default targets=(default_tests) select=(-L '^default$') ;;
-  --help | -h) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  --help | -h) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) tier="" targets=() select=() ;;
 esac
 [[ -n $tier && $# -gt 0 ]] && shift

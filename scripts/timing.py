@@ -15,24 +15,21 @@ installed under build/. Ports count as registers.
 Exit status: 0 done, 1 a tool failed or the unit does not fit, 2 usage error,
 3 missing tool (with the command that installs it).
 """
-import json
 import os
 import re
 import statistics
 import tempfile
 
-from report import synthesis
+from report import placement, synthesis
 from report.files import Failed, InputError, MissingTool
 from report.program import end, options
 
 LIBERTY = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib"
 PACKAGES = "opensta qflow-tech-osu018"
-CLOCK, RESET = "clk_i", "rst_ni"
 NAND2_AREA = 24.0  # um2, NAND2X1 of the library
 PERIOD = 1000  # ns; longer than any path, whose length is this less its slack
 # In abc's terms: optimise, map for delay, buffer to ten inputs (primary inputs too, which registers are), then size.
 ABC = "+strash;ifraig;scorr;dc2;dch,-f;map,-B,0.9;topo;buffer,-p,-N,10;topo;upsize;dnsize;stime,-p"
-DEVICES = {"25k": (24_288, 28, 56), "45k": (43_848, 72, 108), "85k": (83_640, 156, 208)}  # LUTs, MULT18X18D, DP16KD
 
 
 def main():
@@ -93,14 +90,14 @@ write_verilog -noattr -noexpr netlist.v
         areas = re.findall(r"Chip area for (?:top )?module '.*?': ([\d.]+)", file.read())
     with open(os.path.join(machine.work, "netlist.v"), encoding="utf-8") as file:
         netlist = file.read()
-    clocked = re.search(rf"^  input {CLOCK};$", netlist, re.M)
+    clocked = re.search(rf"^  input {placement.CLOCK};$", netlist, re.M)
     with open(os.path.join(machine.work, "timing.tcl"), "w", encoding="utf-8") as file:
         file.write(f"""read_liberty "{LIBERTY}"
 read_verilog netlist.v
 link_design {synthesis.module_name(args.unit)}
-create_clock -name clock -period {PERIOD} {f'[get_ports {CLOCK}]' if clocked else ''}
+create_clock -name clock -period {PERIOD} {f'[get_ports {placement.CLOCK}]' if clocked else ''}
 foreach port [all_inputs] {{
-  if {{[get_property $port full_name] ne "{CLOCK}"}} {{
+  if {{[get_property $port full_name] ne "{placement.CLOCK}"}} {{
     set_input_delay 0 -clock clock $port
     set_driving_cell -lib_cell DFFPOSX1 -pin Q $port
   }}
@@ -206,76 +203,19 @@ class SlowestPath:
 # ---- ECP5 ----
 
 
-def ports(machine, unit, parameters):
-    """Name -> (direction, width)."""
-    machine.yosys(machine.elaborate(unit, parameters) + "proc\nwrite_json ports.json\n", "ports")
-    with open(os.path.join(machine.work, "ports.json"), encoding="utf-8") as file:
-        modules = json.load(file)["modules"]
-    top = next(module for name, module in modules.items() if int(module["attributes"].get("top", "0"), 2))
-    return {name: (port["direction"], len(port["bits"])) for name, port in top["ports"].items()}
-
-
 def place_and_route(machine, nextpnr, args, parameters):
-    wrapper, registers = wrapped(args.unit, ports(machine, args.unit, parameters), parameters)
-    with open(os.path.join(machine.work, "wrapper.sv"), "w", encoding="utf-8") as file:
-        file.write(wrapper)
+    registers = placement.write_wrapper(machine, args.unit, parameters)
     machine.yosys(f"""{machine.read}read_verilog -sv wrapper.sv
-synth_ecp5 -top timing_wrapper -json placed.json
+synth_ecp5 -top {placement.WRAPPER} -json placed.json
 tee -q -o placed.txt stat
 """, "placed")
-    size = synthesis.size_of(synthesis.statistics(os.path.join(machine.work, "placed.txt")), "timing_wrapper", synthesis.ECP5)
-    device = next((name for name, has in DEVICES.items()
-                   if all(size[what] <= limit for what, limit in zip(("LUT", "DSP", "BRAM"), has))), None)
-    if device is None:
-        raise Failed(f"{args.unit} takes {size['LUT']:,} LUT, {size['DSP']} DSP, {size['BRAM']} BRAM; the largest device, LFE5U-85F, "
-                                        "has {:,}, {} and {}".format(*DEVICES["85k"]))
-    clocks, slowest = [], ""
-    for seed in args.seed or [1]:
-        text = synthesis.run([nextpnr, f"--{device}", "--package", "CABGA381", "--speed", args.speed, "--json", "placed.json", "--freq", "100",
-                              "--seed", str(seed), "--lpf-allow-unconstrained", "--timing-allow-fail", "--textcfg", "placed.cfg"],
-                             machine.work, "nextpnr.log")
-        found = re.findall(r"Max frequency for clock\s+'[^']*':\s+([\d.]+) MHz", text)
-        if not found:
-            raise Failed("nextpnr-ecp5 gave no clock:\n" + "\n".join(text.splitlines()[-10:]))
-        clocks.append(float(found[-1]))
-        # Max frequency is an `Info` or, below --freq, a `Warning`.
-        slowest = re.split("Critical path report for cross-domain|Max frequency", text[text.rfind("Critical path report for clock"):])[0]
-    ends = re.findall(r"(?:Source|Sink) (\S+)", slowest)
-    return {"device": "LFE5U-" + device.replace("k", "F"), "speed": args.speed, "luts": size["LUT"], "flip_flops": size["FF"] - registers,
+    size = synthesis.size_of(synthesis.statistics(os.path.join(machine.work, "placed.txt")), placement.WRAPPER, synthesis.ECP5)
+    device = placement.smallest_device(args.unit, size)
+    reports = [placement.nextpnr(nextpnr, machine.work, "placed.json", f"seed{seed}", device, args.speed, seed) for seed in args.seed or [1]]
+    clocks = [placement.mhz(report) for report in reports]
+    return {"device": placement.device_name(device), "speed": args.speed, "luts": size["LUT"], "flip_flops": size["FF"] - registers,
             "dsps": size["DSP"], "block_rams": size["BRAM"], "mhz": statistics.median(clocks), "mhz_by_seed": clocks,
-            "critical_path": f"{ends[0]} -> {ends[-1]}" if ends else ""}
-
-
-def wrapped(unit, ports_of_unit, parameters):
-    """The unit between registers: its inputs come from a shift register, its outputs are sampled and folded into one pin. Verilog, and
-    the number of flip-flops that are not the unit's."""
-    clock_and_reset = {CLOCK: "clk", RESET: "rst_q"}
-    widths = {direction: sum(width for name, (is_, width) in ports_of_unit.items() if is_ == direction and name not in clock_and_reset)
-              for direction in ("input", "output")}
-    at, connections = {"input": 0, "output": 0}, []
-    for name, (direction, width) in ports_of_unit.items():
-        if name in clock_and_reset:
-            connections.append(f".{name}({clock_and_reset[name]})")
-        else:
-            connections.append(f".{name}({'in_q' if direction == 'input' else 'out'}[{at[direction]} +: {width}])")
-            at[direction] += width
-    inputs, outputs = max(widths["input"], 1), max(widths["output"], 1)
-    override = f"#({', '.join(f'.{name}({value})' for name, value in parameters)}) " if parameters else ""
-    return f"""module timing_wrapper (input clk, input rst, input si, output so);
-  reg rst_q;
-  reg [{inputs - 1}:0] in_q;
-  wire [{outputs - 1}:0] out;
-  reg [{outputs - 1}:0] out_q, fold_q;
-  always @(posedge clk) begin
-    rst_q <= rst;
-    in_q <= {{in_q, si}};
-    out_q <= out;
-    fold_q <= out_q ^ {{fold_q, si}};
-  end
-  assign so = fold_q[{outputs - 1}];
-  {synthesis.module_name(unit)} {override}u_unit ({', '.join(connections)});
-endmodule
-""", inputs + 2 * outputs + 1
+            "critical_path": placement.critical_path(reports[-1])}
 
 
 # ---- for people ----

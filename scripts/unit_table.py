@@ -32,6 +32,7 @@ RTL = os.path.join(ROOT, "rtl")
 LIST, MEASURED = (os.path.join(RTL, name) for name in ("units.toml", "units_measured.json"))
 CONFIGURATIONS = os.path.join(ROOT, "golden/analysis/synthesised.csv")
 SIZES = {"lut": "luts", "ff": "flip_flops", "dsp": "dsps", "bram": "block_rams"}  # here -> in size.py's report
+PARTS = ("front", "tiles", "hidden_tiles", "pixel", "pixel_pipeline", "pixel_lane", "pixel_functions")  # whose units are in the list
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -97,12 +98,12 @@ class Package:
         text = without_comments(read_text(os.path.join(RTL, module_name(unit) + ".sv")))
         header = text[text.index(f"module {module_name(unit)}"):].split(");", 1)[0]
         names = {}
-        for name, expression in re.findall(r"(?:parameter|localparam) (?:int|bit) (\w+)\s*=\s*((?:[^,()]|\((?:[^()]|\([^()]*\))*\))+)", header):
+        for name, expression in re.findall(r"(?:(?:parameter|localparam) (?:int|bit)|,) (\w+)\s*=\s*((?:[^,()]|\((?:[^()]|\([^()]*\))*\))+)", header):
             names[name] = int(parameters[name]) if name in parameters else self.value(expression.replace("1'b", ""), names)
         bits = {"input": 0, "output": 0}
-        for direction, high, name in re.findall(r"(input|output) logic (?:\[([^\]]+):0\] )?(\w+)", header):
-            if name not in ("clk_i", "rst_ni"):
-                bits[direction] += 1 + self.value(high, names) if high else 1
+        for direction, high, ports in re.findall(r"(input|output) logic (?:\[([^\]]+):0\] )?(\w+(?:, \w+)*)", header):
+            count = len(set(ports.split(", ")) - {"clk_i", "rst_ni"})
+            bits[direction] += count * (1 + self.value(high, names) if high else 1)
         return bits["input"], bits["output"]
 
 
@@ -130,10 +131,10 @@ def conditional(text):
 def faults_of(units, package):
     faults = []
     listed = [unit["name"] for unit in units]
-    for top in ("quadrille", "pixel_pipeline", "pixel_lane"):
+    for top in ("quadrille", *PARTS):
         text = without_comments(read_text(os.path.join(RTL, module_name(top) + ".sv")))
         for module in dict.fromkeys(re.findall(r"^ +quadrille_(\w+) (?:#\(.*?\) )?u_\w+ \(", text, re.M | re.DOTALL)):
-            if module not in listed and module not in ("config_check", "delay_line", "pixel_pipeline", "pixel_lane", "offset_digits", "radix4_digits"):
+            if module not in (*listed, *PARTS, "config_check", "delay_line", "slot_allocation", "offset_digits", "radix4_digits"):
                 faults.append(f"rtl/units.toml: {top} instantiates {module}, which is not in the list")
     model = {}
     for name, expression in re.findall(r"inline constexpr int (\w+) = ([^;]+);", without_comments(read_text(os.path.join(ROOT, "model/port/latency.hpp")))):

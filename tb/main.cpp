@@ -102,6 +102,7 @@ int run(int argc, char** argv) {
   add_cosim_command(app, invocation);
   add_render_command(app, invocation);
   add_fragments_command(app, invocation);
+  add_explain_command(app, invocation);
   add_config_command(app, invocation);
   add_export_command(app, invocation);
   add_scenes_command(app, invocation);

@@ -276,8 +276,9 @@ TEST(HardwareCost, AttributeSlotsCostTheSameEach) {
       EXPECT_EQ(costs[i].table_bits, costs[0].table_bits);
     }
     // Three products with the weights and one with the reciprocal.
-    const int s = config.significand_bits;
+    const int s = std::min(config.significand_bits, 18);
     EXPECT_EQ(costs[1].multiplier_bits - costs[0].multiplier_bits, static_cast<std::uint64_t>(4 * s * s));
+    EXPECT_EQ(costs[1].dsps - costs[0].dsps, 4);
     // The output register's clearing is shared out in whole bits, so adders are linear too.
     for (std::size_t i = 2; i < costs.size(); ++i)
       EXPECT_EQ(costs[i].adder_bits - costs[i - 1].adder_bits, costs[1].adder_bits - costs[0].adder_bits);

@@ -68,23 +68,13 @@ Imf::Slice slice(const std::vector<Value>& values, int width, Imf::PixelType typ
 }  // namespace
 
 void save_exr(const std::string& path, const FrameImage& frame) {
-  std::map<std::string, const std::vector<float>*> floats{
-      {"R", &frame.r}, {"G", &frame.g}, {"B", &frame.b}, {"A", &frame.a}, {"Z", &frame.z}};
-  for (std::size_t i = 0; i < 4; ++i) floats["L" + std::to_string(i)] = &frame.lambda[i];
-  for (const auto& [name, values] : frame.error) floats["error." + name] = &values;
-  for (const auto& [name, values] : frame.layer) floats[name] = &values;
-
   Imf::Header header(frame.width, frame.height);
   header.compression() = Imf::PIZ_COMPRESSION;  // lossless, and its bytes are OpenEXR's own: no zlib
   Imf::FrameBuffer buffer;
-  for (const auto& [name, values] : floats) {
-    if (values->size() != frame.pixels())
-      throw std::logic_error("FrameImage: channel " + name + " has not one value per pixel");
+  for (const auto& [name, values] : float_channels(frame)) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     buffer.insert(name, slice(*values, frame.width, Imf::FLOAT));
   }
-  if (frame.quad.size() != frame.pixels())
-    throw std::logic_error("FrameImage: channel quad has not one value per pixel");
   header.channels().insert("quad", Imf::Channel(Imf::UINT));
   buffer.insert("quad", slice(frame.quad, frame.width, Imf::UINT));
 

@@ -1,6 +1,7 @@
 #include "golden/io/fragment_csv.hpp"
 
 #include "golden/io/atomic_file.hpp"
+#include "golden/io/npy.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -49,15 +50,19 @@ std::vector<std::size_t> sorted_order(std::span<const FragmentRow> rows) {
   return order;
 }
 
+std::size_t checked_attributes(const FragmentColumns& columns) {
+  if (columns.attributes.size() > max_attribute_slots)
+    throw std::logic_error("FragmentColumns: attributes out of range");
+  return columns.attributes.size();
+}
+
 }  // namespace
 
 void save_fragment_csv(const std::string& path, std::span<const FragmentRow> rows, const FragmentColumns& columns) {
-  if (columns.attributes < 0 || columns.attributes > max_attribute_slots)
-    throw std::logic_error("FragmentColumns: attributes out of range");
-  const auto attributes = static_cast<std::size_t>(columns.attributes);
+  const std::size_t attributes = checked_attributes(columns);
   AtomicFile file(path, AtomicFile::Dash::standard_output);
   std::string head = "quad,x,y,front,flags,l0,l1,l2,l3,z";
-  for (std::size_t j = 0; j < attributes; ++j) head += ",a" + std::to_string(j);
+  for (const std::string& name : columns.attributes) head += "," + name;
   file.write(head + "\n");
 
   Line line;
@@ -84,6 +89,32 @@ void save_fragment_csv(const std::string& path, std::span<const FragmentRow> row
     file.write(line.text());
   }
   file.commit();
+}
+
+void save_fragment_npz(const std::string& path, std::span<const FragmentRow> rows, const FragmentColumns& columns) {
+  const std::size_t attributes = checked_attributes(columns);
+  std::vector<std::uint32_t> quad, flags;
+  std::vector<std::uint16_t> x, y;
+  std::vector<std::uint8_t> front;
+  std::vector<std::vector<double>> lambda(4), attribute(attributes);
+  std::vector<double> z;
+  for (const std::size_t i : sorted_order(rows)) {
+    const FragmentRow& row = rows[i];
+    quad.push_back(row.quad);
+    x.push_back(row.x);
+    y.push_back(row.y);
+    front.push_back(row.front);
+    flags.push_back(row.flags);
+    for (std::size_t k = 0; k < 4; ++k) lambda[k].push_back(row.lambda[k]);
+    if (columns.depth) z.push_back(row.z);
+    for (std::size_t j = 0; j < attributes; ++j) attribute[j].push_back(row.attribute[j]);
+  }
+  std::vector<NpzArray> arrays{npz_column("quad", "<u4", quad), npz_column("x", "<u2", x), npz_column("y", "<u2", y),
+                               npz_column("front", "|b1", front), npz_column("flags", "<u4", flags)};
+  for (std::size_t k = 0; k < 4; ++k) arrays.push_back(npz_column("l" + std::to_string(k), "<f8", lambda[k]));
+  if (columns.depth) arrays.push_back(npz_column("z", "<f8", z));
+  for (std::size_t j = 0; j < attributes; ++j) arrays.push_back(npz_column(columns.attributes[j], "<f8", attribute[j]));
+  save_npz(path, arrays);
 }
 
 }  // namespace quadrille::golden

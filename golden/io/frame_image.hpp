@@ -33,4 +33,11 @@ struct FrameImage {
   std::map<std::string, std::vector<float>> layer;  ///< further ones, by their own names
 };
 
+/// The channels by the names that picture files have: R G B A Z L0 to L3, error.NAME, further layers; quad apart.
+/// Throws std::logic_error for one that has not one value per pixel.
+std::map<std::string, const std::vector<float>*> float_channels(const FrameImage& frame);
+
+/// The channels as arrays of (height, width) for numpy.load(): float32, quad uint32. Throws as save_npz() does.
+void save_frame_npz(const std::string& path, const FrameImage& frame);
+
 }  // namespace quadrille::golden

@@ -26,29 +26,30 @@ int sign_of(const Number& value) {
   return (value > 0) - (value < 0);
 }
 
-// All are bit operations in line; comparisons of __float128 are library calls.
-int sign_of(__float128 value) {
+// All are bit operations in line; comparisons of Float113 are library calls.
+int sign_of(Float113 value) {
   const auto bits = std::bit_cast<unsigned __int128>(value);
   if (bits << 1 == 0) return 0;
   return bits >> 127 == 0 ? 1 : -1;
 }
 /// By bits: the sign is the highest one.
-__float128 magnitude(__float128 value) {
-  return std::bit_cast<__float128>(std::bit_cast<unsigned __int128>(value) << 1 >> 1);
+Float113 magnitude(Float113 value) {
+  return std::bit_cast<Float113>(std::bit_cast<unsigned __int128>(value) << 1 >> 1);
 }
+bool negative(Float113 value) { return __builtin_signbit(value) != 0; }
+#if __LDBL_MANT_DIG__ != 113
 long double magnitude(long double value) { return std::abs(value); }
-bool negative(__float128 value) { return __builtin_signbit(value) != 0; }
 bool negative(long double value) { return std::signbit(value); }
+/// 1 / sqrt(a), within two roundings.
+long double rsqrt(long double a) { return 1.0L / std::sqrt(a); }
+#endif
+using golden::rsqrt;
 
 /// a - b, exactly.
 detail::TwoDoubles exact_difference(double a, double b) {
   const double difference = a - b, of_b = a - difference;
   return {difference, (a - (difference + of_b)) + (of_b - b)};
 }
-
-using golden::rsqrt;
-/// 1 / sqrt(a), within two roundings.
-long double rsqrt(long double a) { return 1.0L / std::sqrt(a); }
 
 /// sum(a_i b_i)
 template <class Number>
@@ -141,7 +142,7 @@ struct PixelLengths {
   }
 };
 
-/// Number: __float128, or long double, whose m_i are within 69 spread_i 2^-64. (In units of 2^-64, a square's 4 halved
+/// Number: Float113, or long double, whose m_i are within 69 spread_i 2^-64. (In units of 2^-64, a square's 4 halved
 /// by its root: rho 4 and a length 5; the product of two lengths 11, n and d 15, for nothing in them cancels; with the
 /// product of two d, 31, the products t_i are within 63; rho and the last two operations make 69.)
 template <class Number, class Coord, class Product>
@@ -289,7 +290,7 @@ void TruthGeometry<Coord, Product>::finish() {
 }
 
 template struct TruthGeometry<std::int64_t, __int128>;
-template struct TruthGeometry<__float128, __float128>;
+template struct TruthGeometry<Float113, Float113>;
 
 }  // namespace detail
 
@@ -346,7 +347,7 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
       refuse_vertex(quad.id, i, "not finite");
     }
     if (v.x == 0 && v.y == 0 && v.w == 0) refuse_vertex(quad.id, i, "(0, 0, *, 0) is no point");
-    const __float128 w = v.w;
+    const Float113 w = v.w;
     g.x[i] = v.x - w / 2;
     g.y[i] = v.y - w / 2;
     g.w[i] = w;
@@ -357,7 +358,7 @@ TruthQuad::TruthQuad(const WindowQuad& quad, const DrawState& draw)
     exact_.z[i] = v.z;
     for (int a = 0; a < attributes_; ++a) {
       const double value = a < static_cast<int>(quad.attribute[i].size()) ? quad.attribute[i][a] : 0.0;
-      exact_.b[a][i] = perspective_ ? static_cast<__float128>(value) : w * value;
+      exact_.b[a][i] = perspective_ ? static_cast<Float113>(value) : w * value;
     }
     vertex[i] = {v.x, v.y, v.w};
   }
@@ -383,7 +384,7 @@ void TruthQuad::set_lanes(const std::array<detail::TwoDoubles, 4>& x, const std:
   const auto all_zero = [](const auto& values) { return std::ranges::all_of(values, [](auto v) { return v == 0; }); };
   if (all_zero(exact_.k) || all_zero(exact_.w)) return;
   bool fits = true;
-  const auto take = [&](__float128 value) {
+  const auto take = [&](Float113 value) {
     const auto number = static_cast<double>(value);
     const double size = std::fabs(number);
     fits = fits && number == value &&
@@ -417,7 +418,7 @@ Coverage TruthQuad::cover(int px, int py) const {
       geometry_);
 }
 
-std::array<__float128, 4> TruthQuad::homogeneous_weights(int px, int py) const {
+std::array<Float113, 4> TruthQuad::homogeneous_weights(int px, int py) const {
   return std::visit([&](const auto& g) { return weights_at(PixelEdges(g, px, py), crossing()).m; }, geometry_);
 }
 
@@ -436,7 +437,7 @@ namespace {
 template <class Number, class Coord, class Product>
 bool weigh(const detail::TruthGeometry<Coord, Product>& g, const PixelEdges<Coord, Product>& p,
            const detail::VertexValues<Number>& v, bool perspective, bool unit_w, int attributes, ReferenceSample& out) {
-  constexpr bool certain = std::is_same_v<Number, __float128>;
+  constexpr bool certain = std::is_same_v<Number, Float113>;
   constexpr int most_cancelled_k = 56, most_cancelled_w = 900;
   const Weights<Number> weights = weights_at(p, perspective ? v.k : v.w);
   switch (weights.singular) {

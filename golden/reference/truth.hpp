@@ -8,6 +8,7 @@
 #include "golden/reference/truth_lanes.hpp"
 #include "model/port/config.hpp"
 #include "model/port/records.hpp"
+#include "model/support/float113.hpp"
 
 #include <array>
 #include <cstdint>
@@ -37,7 +38,7 @@ struct Coverage {
 namespace detail {
 
 /// Four homogeneous vertices relative to pixel centres, and what depends on them alone. Coord = int64 with Product =
-/// __int128 (every product and sum below exact for any int32 vertices and pixels), or __float128 for both.
+/// __int128 (every product and sum below exact for any int32 vertices and pixels), or Float113 for both.
 /// Edges are numbered 01, 12, 23, 30, and 20 (the diagonal).
 template <class Coord, class Product>
 struct TruthGeometry {
@@ -77,7 +78,7 @@ struct VertexValues {
 ///    the port, to which the quad's bases are added; depth is clamped to the corners' codes. A, D and R^2 are exact
 ///    integers, hence coverage, ties and singular classes are exact.
 ///  - as given: pixel centres at +0.5, k = 1, Z = z~, b = a (w a without perspective), no base. The same formulas in
-///    __float128; edge functions round at 113 bits, so a tie is recognised when that rounding gives 0.
+///    Float113; edge functions round at 113 bits, so a tie is recognised when that rounding gives 0.
 /// The weights carry a relative error of about 2^-108 times `ReferenceSample::condition`; results are rounded to
 /// double.
 class TruthQuad {
@@ -127,7 +128,7 @@ class TruthQuad {
 
   /// M_0..M_3 up to a common factor of either sign, at any pixel, inside or not (eq. 8 in homogeneous form; at singular
   /// pixels as listed at sample()).
-  std::array<__float128, 4> homogeneous_weights(int px, int py) const;
+  std::array<Float113, 4> homogeneous_weights(int px, int py) const;
 
   /// Every pixel of the scissor that is covered and visible lies in them; of a quad with the eye in its hull every
   /// covered one.
@@ -136,10 +137,10 @@ class TruthQuad {
 
  private:
   using Exact = detail::TruthGeometry<std::int64_t, __int128>;
-  using Rounded = detail::TruthGeometry<__float128, __float128>;
+  using Rounded = detail::TruthGeometry<Float113, Float113>;
 
   std::variant<Exact, Rounded> geometry_;
-  detail::VertexValues<__float128> exact_;
+  detail::VertexValues<Float113> exact_;
   detail::VertexValues<long double> quick_;  ///< the same for the filter
   std::optional<detail::LaneQuad> lanes_;    ///< for the second one, where the numbers are such that it can be asked
   int attributes_ = 0;
@@ -161,7 +162,7 @@ class TruthQuad {
                  ReferenceSample& out) const;
 
   /// What singular pixels cross.
-  const std::array<__float128, 4>& crossing() const { return perspective_ ? exact_.k : exact_.w; }
+  const std::array<Float113, 4>& crossing() const { return perspective_ ? exact_.k : exact_.w; }
 };
 
 }  // namespace quadrille::golden

@@ -100,23 +100,30 @@ void add_pieces(const Mesh& mesh, std::size_t face, std::vector<Piece>& pieces, 
 
 }  // namespace
 
-int attribute_count(AttributeSet set) {
+std::span<const std::string_view> attribute_names(AttributeSet set) {
+  static constexpr std::array<std::string_view, 5> uv_normal{"u", "v", "nx", "ny", "nz"};
+  static constexpr std::array<std::string_view, 4> weights{"w0", "w1", "w2", "w3"};
+  static constexpr std::array<std::string_view, 3> position{"px", "py", "pz"}, colour{"red", "green", "blue"};
   switch (set) {
     case AttributeSet::none:
-      return 0;
+      return {};
     case AttributeSet::uv:
-      return 2;
+      return std::span(uv_normal).first(2);
     case AttributeSet::normal:
-    case AttributeSet::position:
-    case AttributeSet::colour:
-      return 3;
+      return std::span(uv_normal).last(3);
     case AttributeSet::weights:
-      return 4;
+      return weights;
     case AttributeSet::uv_normal:
-      return 5;
+      return uv_normal;
+    case AttributeSet::position:
+      return position;
+    case AttributeSet::colour:
+      return colour;
   }
-  return 0;
+  return {};
 }
+
+int attribute_count(AttributeSet set) { return static_cast<int>(attribute_names(set).size()); }
 
 AttributeSet attributes_for_shade(std::string_view shade) {
   if (shade == "uv" || shade == "texture") return AttributeSet::uv;

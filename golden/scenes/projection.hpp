@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,8 @@ enum class AttributeSet {
   colour,     ///< red, green, blue (the mesh needs colours)
 };
 
+/// Names of the attributes in slot order: of columns of tables.
+std::span<const std::string_view> attribute_names(AttributeSet set);
 int attribute_count(AttributeSet set);
 
 /// The layout that a shading mode needs: uv, texture → uv; normal → normal; planes → position; colour → colour;

@@ -4,6 +4,7 @@
 #include "model/support/edit_distance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace quadrille::golden {
@@ -69,6 +70,19 @@ Scene make_scene(std::string_view name) {
 
 std::vector<WindowQuad> scene_quads(const Scene& scene, int width, int height, AttributeSet attributes) {
   return project_mesh(scene.mesh, scene.camera, width, height, {attributes, false}).quads;
+}
+
+void fit_positions(std::vector<WindowQuad>& quads, CuttingPlanes& planes) {
+  double largest = 0;
+  for (const WindowQuad& quad : quads)
+    for (const std::vector<double>& position : quad.attribute)
+      for (const double c : position) largest = std::max(largest, std::fabs(c));
+  double scale = 1;
+  while (largest * scale > 2) scale /= 2;
+  for (WindowQuad& quad : quads)
+    for (std::vector<double>& position : quad.attribute)
+      for (double& c : position) c *= scale;
+  planes.spacing *= scale;
 }
 
 }  // namespace quadrille::golden

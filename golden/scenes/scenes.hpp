@@ -52,4 +52,7 @@ Scene make_scene(std::string_view name);
 std::vector<WindowQuad> scene_quads(const Scene& scene, int width, int height,
                                     AttributeSet attributes = AttributeSet::weights);
 
+/// A machine's attributes have few integer bits: positions are halved until none is above 2, and the spacing with them.
+void fit_positions(std::vector<WindowQuad>& quads, CuttingPlanes& planes);
+
 }  // namespace quadrille::golden

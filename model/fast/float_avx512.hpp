@@ -30,6 +30,7 @@ inline D greatest(D a, D b) { return _mm512_max_pd(a, b); }
 inline I least(I a, I b) { return _mm512_min_epi32(a, b); }
 inline I greatest(I a, I b) { return _mm512_max_epi32(a, b); }
 inline F keep(F v, F mask) { return _mm512_and_ps(v, mask); }
+inline F add(F a, F b) { return a + b; }
 inline I add(I a, I b) { return _mm512_add_epi32(a, b); }
 inline I subtract(I a, I b) { return _mm512_sub_epi32(a, b); }
 template <int places>

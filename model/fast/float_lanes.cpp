@@ -212,6 +212,9 @@ FloatLanes::FloatLanes(const PipelineContext& c)
   // The last condition: exponents are as odd in pixels as in units of the last place.
   fits_ = c.format.s + c.format.g <= 20 && config.attribute_int_bits + c.attribute_frac <= 31 && fits(c.sqrt_table) &&
           fits(c.recip_table) && config.quadratic_frac() % 2 == 0;
+#ifdef __wasm__
+  fits_ = false;  // these lanes need a unit that rounds toward zero
+#endif
   if (!fits_) return;
   // Where everything has its place in a double and nothing is dropped of D, whatever the positions on their grid.
   small_ = val_bits_ - 2 * config.homogeneous_frac_bits <= 53 && qdrop_ <= 2 * config.homogeneous_frac_bits &&

@@ -19,6 +19,7 @@ inline I load(const std::uint32_t* from) {
   return v;
 }
 
+inline F add(F a, F b) { return a + b; }
 /// Not fused: the sum ends at a place no finer than the product's last one.
 inline F fma(F a, F b, F c) { return a * b + c; }
 inline D fma(D a, D b, D c) { return a * b + c; }

@@ -153,7 +153,7 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
       for (std::size_t k = 0; k < 6; ++k) {
         const auto [i, j] = vertex_pair[k];
         const F c = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k])) * align;
-        u[k] = arithmetic.cut(fma(r[i], r[j], c) + d[k] - c);
+        u[k] = arithmetic.cut(add(fma(r[i], r[j], c), d[k]) - c);
       }
 
       // root_ratio.hpp; a term of an edge cancels where D < 0, of a diagonal where D >= 0.

@@ -5,7 +5,7 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
-#elif !defined(__aarch64__)
+#elif !defined(__aarch64__) && !defined(__wasm__)
 #include <cfenv>
 #endif
 
@@ -35,6 +35,11 @@ class TowardZero {
     return word;
   }
   static void set(Word word) { asm volatile("msr fpcr, %0" : : "r"(word) : "memory"); }
+#elif defined(__wasm__)
+  using Word = int;  // it has no modes: wide_portable.hpp rounds by itself
+  static constexpr Word toward_zero = 0;
+  static Word get() { return 0; }
+  static void set(Word) {}
 #else
   using Word = int;
   static constexpr Word toward_zero = FE_TOWARDZERO;

@@ -26,6 +26,7 @@ inline F least(F a, F b) { return _mm256_min_pd(a, b); }
 inline F greatest(F a, F b) { return _mm256_max_pd(a, b); }
 inline F keep(F v, F mask) { return _mm256_and_pd(v, mask); }
 inline F toward_zero(F v) { return _mm256_round_pd(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC); }
+inline F add(F a, F b) { return a + b; }
 inline I add(I a, I b) { return _mm256_add_epi64(a, b); }
 inline I subtract(I a, I b) { return _mm256_sub_epi64(a, b); }
 template <int places>

@@ -31,10 +31,16 @@ inline unsigned out_of_range(F, F, const WideQuad&) { return 0; }
 /// base + num * rec * per_unit, the quotient rounded to nearest, halves away from zero: the half is added before the
 /// unit cuts what is below 53 bits, fraction. What has no integer part of 52 bits is beyond every limit.
 [[gnu::always_inline]] inline C to_codes(F num, F rec, F per_unit, const LaneCodes<double>& to, Mask& clamped) {
-  const F half = real(((bits(num) ^ bits(rec)) & splat(INT64_MIN)) | bits(splat(0.5)));
-  const F most = splat(0x1p51);
-  const F quotient = least(greatest(fma(num * per_unit, rec, half), splat(-0x1p51)), most);
-  const F sum = toward_zero(quotient) + splat(to.base), low = splat(to.low), high = splat(to.high);
+  const I sign = (bits(num) ^ bits(rec)) & splat(INT64_MIN);
+  const F half = real(sign | bits(splat(0.5))), most = splat(0x1p51);
+#ifdef __wasm__
+  // No sum that is cut: the product is exact, and so is what its integer leaves of it.
+  const F quotient = least(greatest(num * per_unit * rec, splat(-0x1p51)), most), integer = toward_zero(quotient);
+  const F rounded = integer + select(at_least(magnitude(quotient - integer), splat(0.5)), half + half, splat(0.0));
+#else
+  const F rounded = toward_zero(least(greatest(fma(num * per_unit, rec, half), splat(-0x1p51)), most));
+#endif
+  const F sum = rounded + splat(to.base), low = splat(to.low), high = splat(to.high);
   clamped = clamped | greater(low, sum) | greater(sum, high);
   return least(greatest(sum, low), high);
 }

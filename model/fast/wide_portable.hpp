@@ -12,13 +12,25 @@ inline F splat(double v) { return F{v, v}; }
 inline I splat(std::int64_t v) { return I{v, v}; }
 inline I load(const std::uint32_t* from) { return I{from[0], from[1]}; }
 
-/// Not fused: products have 52 bits.
-inline F fma(F a, F b, F c) { return a * b + c; }
+#ifdef __wasm__
+/// WebAssembly rounds to nearest alone: where that went up, the number before is it. Of a >= |b|, so that what the sum
+/// lost is a number itself (Dekker).
+inline F add(F a, F b) {
+  const F sum = a + b, lost = b - (sum - a);
+  return real(add(bits(sum), I(lost < 0.0)));
+}
+/// Of magnitudes below 2^52.
+inline F toward_zero(F v) { return __builtin_elementwise_trunc(v); }
+#else
+inline F add(F a, F b) { return a + b; }
 /// Of magnitudes below 2^52.
 inline F toward_zero(F v) {
   const I sign = bits(v) & INT64_MIN;
   return real(bits(real(bits(v) & INT64_MAX) + splat(0x1p52) - splat(0x1p52)) | sign);
 }
+#endif
+/// Not fused: products have 52 bits.
+inline F fma(F a, F b, F c) { return add(c, a * b); }
 /// Floor of half.
 inline I halved(I v) { return shift_right<1>(v) | (v & INT64_MIN); }
 /// Of numbers below 2^32.
@@ -31,16 +43,29 @@ inline I multiply_words(I a, I b) {
 }
 /// Modulo 2^64, v below 2^32.
 inline I times(I v, std::int64_t by) {
+#ifdef __wasm__
+  return I(U(v) * U(splat(by)));
+#else
   return add(multiply_words(v, splat(by)), shift_left<32>(multiply_words(v, splat(by >> 32))));
+#endif
 }
 /// Of integers below 2^52.
 inline F converted(I v) { return real(v | 0x4330000000000000) - splat(0x1p52); }
 /// Of any, rounded toward zero once: `low` is exact and 2^52 too large, the other one exact and as much too small.
+#ifdef __wasm__
+inline F converted_any(I v) {
+  const I size = __builtin_elementwise_abs(v), beyond = (shift_right<53>(size) != 0) & 0x7ff;
+  const F high = real(shift_right<32>(size) | 0x4530000000000000);
+  const F low = real((size & 0xffffffff & ~beyond) | 0x4330000000000000);
+  return real(bits((high - splat(0x1p84 + 0x1p52)) + low) | (v & INT64_MIN));
+}
+#else
 inline F converted_any(I v) {
   const F high = real((shift_right<32>(v) ^ 0x80000000) | 0x4530000000000000);
   const F low = real((v & 0xffffffff) | 0x4330000000000000);
   return (high - splat(0x1p84 + 0x1p63 + 0x1p52)) + low;
 }
+#endif
 
 inline Mask greater(F a, F b) { return {a > b}; }
 /// Bit l is lane l.

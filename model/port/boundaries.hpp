@@ -177,7 +177,7 @@ void visit(Record& g, const Config& c, F&& f) {
 template <class Record, class F>
 requires std::same_as<std::remove_const_t<Record>, SetupResult>
 void visit(Record& r, const Config& c, F&& f) {
-  f(plain("slot", slot_bits(c), "slot of the quad").at("setup_slot"), -1, r.slot);
+  f(plain("slot", slot_bits(c), "slot of the quad"), -1, r.slot);
   f(plain("tile_x0", tc_bits(c), "first tile column", "tiles"), -1, r.tile_x0);
   f(plain("tile_y0", tc_bits(c), "first tile row", "tiles"), -1, r.tile_y0);
   f(plain("tiles_x", tc_bits(c), "tile columns, 0 for an empty bounding box", "tiles"), -1, r.tiles_x);
@@ -187,14 +187,13 @@ void visit(Record& r, const Config& c, F&& f) {
   f(plain("visible", 4, "clauses that may be drawn; bit 0: first +, 1: second +, 2: first -, 3: second -"), -1,
     r.visible);
   visit_array(
-      f, linear_value(c).at("setup_lin_value"),
-      linear_count, [&](std::size_t i) -> auto& { return r.linear[i].value; });
+      f, linear_value(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].value; });
   visit_array(
-      f, linear_gx(c).at("setup_lin_gx"), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gx; });
+      f, linear_gx(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gx; });
   visit_array(
-      f, linear_gy(c).at("setup_lin_gy"), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gy; });
+      f, linear_gy(c), linear_count, [&](std::size_t i) -> auto& { return r.linear[i].gy; });
   visit_array(
-      f, squared_length(c).at("setup_length2"), linear_count, [&](std::size_t i) -> auto& { return r.length2[i]; });
+      f, squared_length(c), linear_count, [&](std::size_t i) -> auto& { return r.length2[i]; });
 }
 
 template <class Record, class F>
@@ -219,8 +218,8 @@ void visit(Record& t, const Config& c, F&& f) {
 template <class Record, class F>
 requires std::same_as<std::remove_const_t<Record>, StampEntry>
 void visit(Record& s, const Config& c, F&& f) {
-  f(plain("end_token", 1, "the quad has no further stamp; the masks are 0").at("push_end"), -1, s.end);
-  f(plain("tile_ptr", {c.ring_log2() + 1, "TILE_SLOTS_LOG2+2"}, "entry of the tile ring").at("ptr"), -1, s.tile_ptr);
+  f(plain("end_token", 1, "the quad has no further stamp; the masks are 0"), -1, s.end);
+  f(plain("tile_ptr", {c.ring_log2() + 1, "TILE_SLOTS_LOG2+2"}, "entry of the tile ring"), -1, s.tile_ptr);
   f(plain("row", tile_log2(c), "row in the tile", "px"), -1, s.row);
   f(plain("mask", tile_bits(c), "covered pixels, bit dx"), -1, s.mask);
   f(plain("front", tile_bits(c), "of these, front faces"), -1, s.front);
@@ -244,11 +243,11 @@ requires std::same_as<std::remove_const_t<Record>, PixelTrace>
 void visit(Record& p, Boundary b, const Config& c, F&& f) {
   switch (b) {
     case Boundary::diff:
-      f(plain("slot", slot_bits(c), "slot of the quad").at("u_quadrille.u_pipeline.diff_tag.slot"), -1, p.slot);
+      f(plain("slot", slot_bits(c), "slot of the quad").at("u_quadrille.u_pixel.u_pipeline.diff_tag.slot"), -1, p.slot);
       f(plain("x", viewport_bits(c), "column", "px")
-            .at("{u_quadrille.u_pipeline.diff_tag.tile_x, `QUADRILLE_LANE.diff_tag[2+:TILE_LOG2]}"),
+            .at("{u_quadrille.u_pixel.u_pipeline.diff_tag.tile_x, `QUADRILLE_LANE.diff_tag[2+:TILE_LOG2]}"),
         -1, p.x);
-      f(plain("y", viewport_bits(c), "row", "px").at("u_quadrille.u_pipeline.diff_tag.y"), -1, p.y);
+      f(plain("y", viewport_bits(c), "row", "px").at("u_quadrille.u_pixel.u_pipeline.diff_tag.y"), -1, p.y);
       f(plain("front", 1, "front face").at("tag[1]"), -1, p.front);
       f(plain("tie", 1, "coverage was decided by the tie rule").at("tag[0]"), -1, p.tie);
       visit_exact(p, c, f);

@@ -1,12 +1,8 @@
 #include "model/support/parallel.hpp"
 
-#include <algorithm>
+#ifndef QUADRILLE_NO_THREADS
 #include <chrono>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <thread>
-#include <vector>
+#endif
 
 namespace quadrille {
 
@@ -18,6 +14,10 @@ void run_units(std::size_t units, unsigned threads, const std::function<void(std
       if (progress) progress(unit + 1);
     }
   };
+#ifdef QUADRILLE_NO_THREADS
+  static_cast<void>(threads);
+  all_here();
+#else
   if (threads <= 1 || units <= 1) return all_here();
   std::mutex mutex;
   std::condition_variable changed;
@@ -68,6 +68,7 @@ void run_units(std::size_t units, unsigned threads, const std::function<void(std
   }
   for (std::thread& worker : workers) worker.join();
   if (error) std::rethrow_exception(error);
+#endif
 }
 
 }  // namespace quadrille

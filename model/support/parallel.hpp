@@ -1,23 +1,30 @@
 // Work in numbered units on several threads. In both forms what comes out does not depend on the number of threads,
 // provided that a unit's result depends on its number alone; the calling thread returns when no unit is running; with
 // one thread or one unit everything happens on the calling thread. Where the system refuses threads, those that it
-// gave do the work, or the calling thread.
+// gave do the work, or the calling thread. WebAssembly has none: everything happens on the calling thread.
 #pragma once
 
+#ifdef __wasm__
+#define QUADRILLE_NO_THREADS
+#endif
+
+#include <cstddef>
+#include <functional>
+#ifndef QUADRILLE_NO_THREADS
 #include <algorithm>
 #include <condition_variable>
-#include <cstddef>
 #include <exception>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
+#endif
 
 namespace quadrille {
 
+#ifndef QUADRILLE_NO_THREADS
 /// Up to `count` threads that run work(i), i from 0: fewer, or none, when the system refuses more. Those that run are
 /// in `threads`, also when this throws.
 template <class Work>
@@ -29,6 +36,7 @@ void start_threads(std::vector<std::thread>& threads, std::size_t count, const W
       return;
     }
 }
+#endif
 
 /// Calls body(unit, thread) for every unit from 0; thread is below max(threads, 1) and no two calls of one thread
 /// overlap. `progress` (may be empty) gets the number of finished units on the calling thread now and then. The first
@@ -41,11 +49,15 @@ void run_units(std::size_t units, unsigned threads, const std::function<void(std
 /// results are dropped.
 template <class Produce, class Consume>
 void ordered_parallel(std::size_t units, unsigned threads, Produce&& produce, Consume&& consume) {
-  using Result = decltype(produce(std::size_t{0}));
   const auto all_here = [&] {
     for (std::size_t unit = 0; unit < units; ++unit) consume(unit, produce(unit));
   };
+#ifdef QUADRILLE_NO_THREADS
+  static_cast<void>(threads);
+  all_here();
+#else
   if (threads <= 1 || units <= 1) return all_here();
+  using Result = decltype(produce(std::size_t{0}));
   struct Slot {
     std::optional<Result> result;
     std::exception_ptr error;
@@ -107,6 +119,7 @@ void ordered_parallel(std::size_t units, unsigned threads, Produce&& produce, Co
     if (slot.error) std::rethrow_exception(slot.error);
     consume(unit, std::move(*slot.result));
   }
+#endif
 }
 
 /// run_units() for a body that does not care which thread it is on.

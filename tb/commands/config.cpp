@@ -1,16 +1,17 @@
 // quadrille config: every key, derived width and error bound of a configuration.
 #include "tb/commands/commands.hpp"
 #include "tb/options/command_line.hpp"
+#include "tb/options/named_config.hpp"
 #include "tb/options/written_file.hpp"
 
 #include "golden/analysis/error_bound.hpp"
+#include "golden/analysis/judged_quad.hpp"
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/config_file.hpp"
 #include "golden/io/json_report.hpp"
 #include "model/port/boundaries.hpp"
 #include "model/port/tables.hpp"
 #include "tb/device/probes.hpp"
-#include "tb/judge/judged_quad.hpp"
 #include "tb/support/errors.hpp"
 #include "tb/support/output.hpp"
 
@@ -27,7 +28,7 @@ namespace {
 struct ConfigOptions {
   CommonOptions common;
   std::string emit_tables, boundaries;
-  bool markdown = false, toml = false;
+  bool list = false, markdown = false, toml = false;
 };
 
 std::string value_text(int value) { return value == -1 ? "auto" : std::to_string(value); }
@@ -141,7 +142,17 @@ std::string boundary_listing(const std::string& which, const Config& given, bool
   return text;
 }
 
+std::string named_listing() {
+  std::string text;
+  for (const auto& [name, path, aim] : named_configs()) text += padded(name, 10) + aim + "\n";
+  return text;
+}
+
 int list_config(const ConfigOptions& options, const std::vector<std::string>& arguments) {
+  if (options.list) {
+    std::fputs(named_listing().c_str(), stdout);
+    return exit_ok;
+  }
   const Config config = options.common.config();
   if (!options.emit_tables.empty()) {
     check_outputs({options.emit_tables, options.common.json}, {options.common.config_file});
@@ -208,6 +219,9 @@ void add_config_command(CLI::App& app, Invocation& invocation) {
       ->excludes(markdown)
       ->excludes(boundaries)
       ->group(output_group);
+  auto* list = command->add_flag("--list", options->list, "List the named configurations")->group(output_group);
+  for (CLI::Option* other : command->get_options())
+    if (other != list && other->get_name() != "--help") list->excludes(other);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] { return list_config(*options, invocation.arguments); };
   });

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -55,6 +57,31 @@ TEST_F(Examples, WhichWindingIsFront) {
   }
   EXPECT_EQ(facing("--cull back").count("1"), 0u);
   EXPECT_EQ(facing("--cull front").count("0"), 0u);
+}
+
+TEST_F(Examples, NamedConfigurations) {
+  const std::string list = run("config --list").out;
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(QUADRILLE_SOURCE_DIR "/rtl/configurations")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++count;
+    const std::string name = entry.path().stem().string();
+    EXPECT_NE(("\n" + list).find("\n" + name + " "), std::string::npos) << name;
+    const Outcome named = run("config --toml --config " + name);
+    EXPECT_EQ(named.status, 0) << named.err;
+    EXPECT_EQ(named.out, run("config --toml --config " + entry.path().string()).out) << name;
+    EXPECT_NE(named.out, run("config --toml").out) << name;
+  }
+  EXPECT_GE(count, 4);
+  EXPECT_EQ(std::ranges::count(list, '\n'), count);
+  // By name wherever a file is taken; a key after it; a file of that name comes first.
+  EXPECT_EQ(run("render --scene bowtie --size 32x32 --quiet --config small --json a.json --png a.png").status, 0);
+  EXPECT_EQ(json::parse(read(file("a.json")))["config"]["viewport_bits"], 10);
+  EXPECT_NE(run("config --toml --config small --set depth_bits=20").out.find("depth_bits = 20 "), std::string::npos);
+  write("small", "depth_bits = 22\n");
+  EXPECT_NE(run("config --toml --config small").out.find("depth_bits = 22 "), std::string::npos);
+  refuses(2, "config --config colour9", {"named configuration", "did you mean \"colour8\"", "depth24"});
+  refuses(2, "config --list --toml", {"--list"});
 }
 
 TEST_F(Examples, Configuration) {

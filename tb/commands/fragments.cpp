@@ -11,6 +11,7 @@
 #include "model/port/snap.hpp"
 #include "tb/engines/engine.hpp"
 #include "tb/options/input.hpp"
+#include "tb/options/pixel.hpp"
 #include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
@@ -19,7 +20,7 @@
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -37,29 +38,19 @@ struct FragmentsOptions {
   bool errors = false;
 };
 
-/// "X,Y" inside the viewport.
-std::pair<int, int> parse_pixel(const std::string& text, const DrawState& state) {
-  int x = -1, y = -1;
-  const char* end = text.data() + text.size();
-  const auto [comma, error] = std::from_chars(text.data(), end, x);
-  const bool first = error == std::errc{} && comma != end && *comma == ',';
-  const auto [last, second] =
-      first ? std::from_chars(comma + 1, end, y) : std::from_chars_result{end, std::errc::invalid_argument};
-  if (!first || second != std::errc{} || last != end || x < 0 || y < 0 || x >= state.width || y >= state.height)
-    throw UsageError("--pixel " + text + ": expected X,Y inside the viewport, such as --pixel 10,20");
-  return {x, y};
-}
-
 int fragments(const FragmentsOptions& options, const Invocation& invocation) {
   const Stopwatch start;
   EngineSettings settings = options.engine.settings(options.common, options.state);
-  if (options.out.empty()) throw UsageError("--out F.csv is missing (- is standard output)");
+  if (options.out.empty()) throw UsageError("--out F.csv or F.npz is missing (- is CSV on standard output)");
   MethodEngineMaker make_method_engine;
   if (!options.method.empty()) {
     make_method_engine = invocation.method(options.method);
     if (options.errors) throw UsageError("--errors and --method conflict: the bound is the machine's");
     settings.snap = false;
   }
+  if (options.errors && has_ending(options.out, "npz"))
+    throw UsageError("--errors writes CSV; expected a name such as " +
+                     std::filesystem::path(options.out).replace_extension("csv").string());
   if (options.errors && !settings.snap) throw UsageError("--errors needs --snap on: the bound is for snapped quads");
   if (options.errors && settings.config.qdrop() != 0)
     throw UsageError("--errors: no bound with quadratic_frac_bits that drops bits of D and R²");
@@ -82,11 +73,11 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
     }
     input.quads = {input.quads[only]};
   }
-  std::pair<int, int> pixel{-1, -1};
+  PixelOption pixel;
   if (!options.pixel.empty()) pixel = parse_pixel(options.pixel, settings.state);
 
   const auto wanted = [&](const EngineSample& sample) {
-    return pixel.first < 0 || (sample.x == pixel.first && sample.y == pixel.second);
+    return pixel.x < 0 || (sample.x == pixel.x && sample.y == pixel.y);
   };
   std::vector<golden::FragmentRow> rows;
   std::vector<EngineSample> kept, truth;  // --errors
@@ -116,13 +107,15 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
     throw UsageError(describe(error, input));
   }
   if (options.errors)
-    golden::write_file(options.out, fragment_errors_csv(input.quads, input.attributes, settings, kept, truth),
+    golden::write_file(options.out, fragment_errors_csv(input.quads, input.attribute_names, settings, kept, truth),
                        golden::AtomicFile::Dash::standard_output);
+  else if (has_ending(options.out, "npz"))
+    golden::save_fragment_npz(options.out, rows, {input.attribute_names, settings.state.depth});
   else
-    golden::save_fragment_csv(options.out, rows, {input.attributes, settings.state.depth});
+    golden::save_fragment_csv(options.out, rows, {input.attribute_names, settings.state.depth});
 
   if (rows.empty() && !options.common.quiet)
-    std::fprintf(stderr, "note: no fragments%s\n", pixel.first < 0 ? "" : (" at pixel " + options.pixel).c_str());
+    std::fprintf(stderr, "note: no fragments%s\n", pixel.x < 0 ? "" : (" at pixel " + options.pixel).c_str());
 
   const std::string& drawn_by = options.method.empty() ? options.engine.engine : options.method;
   const double seconds = start.seconds();
@@ -156,7 +149,9 @@ int fragments(const FragmentsOptions& options, const Invocation& invocation) {
 void add_fragments_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("fragments", "Write every fragment as a table, without depth test");
   end_help(*command,
-           "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,a0,... sorted by quad, y, x.\n"
+           "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,... sorted by quad, y, x. Attributes have their names: u,v, "
+           "nx,ny,nz, px,py,pz, red,green,blue; those of files and families are a0,a1,...\n"
+           "F.npz has an array of each column: numpy.load(\"F.npz\")[\"u\"].\n"
            "Columns with --errors, a row per value: quad,x,y,value,drawn,truth,error,of_bound. A value is l0 to l3, z "
            "or an attribute; of_bound is |error| / bound.\n"
            "With --json or --verbose the engines rtl and model also report performance counters.\n\n"
@@ -183,7 +178,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
   command->add_option("--pixel", options->pixel, "Only this pixel")->type_name("X,Y");
-  writes_file(*command, command->add_option("--out", options->out, "The table; - is standard output"), "csv")
+  writes_one_of(*command, command->add_option("--out", options->out, "The table; - is standard output"), {"csv", "npz"})
       ->group(output_group);
   command->add_flag("--errors", options->errors, "Truth and error of each value, in units of its bound")
       ->group(output_group);

@@ -1,6 +1,6 @@
 #include "tb/commands/fragments_errors.hpp"
 
-#include "tb/judge/judged_quad.hpp"
+#include "golden/analysis/judged_quad.hpp"
 #include "tb/judge/knob_errors.hpp"
 
 #include <cmath>
@@ -25,15 +25,16 @@ std::string real(double value) {
 
 }  // namespace
 
-std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attributes, const EngineSettings& settings,
-                                std::span<const EngineSample> drawn, std::span<const EngineSample> truth) {
+std::string fragment_errors_csv(std::span<const WindowQuad> quads, std::span<const std::string> attributes,
+                                const EngineSettings& settings, std::span<const EngineSample> drawn,
+                                std::span<const EngineSample> truth) {
   std::map<std::tuple<std::uint32_t, int, int>, Pair> pixels;
   for (const EngineSample& s : drawn) pixels[{s.index, s.y, s.x}].drawn = &s;
   for (const EngineSample& s : truth) pixels[{s.index, s.y, s.x}].truth = &s;
 
   DrawState state = settings.state;
-  state.attributes = attributes;
-  const Config snapping = snapping_config(settings.config, attributes);
+  state.attributes = static_cast<int>(attributes.size());
+  const Config snapping = snapping_config(settings.config, state.attributes);
   const Bounds bounds(settings.config);
   std::string out = "quad,x,y,value,drawn,truth,error,of_bound\n";
   std::optional<SnappedQuad> snapped;
@@ -72,8 +73,8 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, int attribute
     for (std::size_t i = 0; i < 4; ++i)
       row("l" + std::to_string(i), allowed.weight[i], [&](const auto& s) { return s.lambda[i]; });
     if (state.depth) row("z", allowed.depth, [](const auto& s) { return s.z; });
-    for (std::size_t a = 0; a < static_cast<std::size_t>(attributes); ++a)
-      row("a" + std::to_string(a), allowed.attribute[a], [&](const auto& s) { return s.attribute[a]; });
+    for (std::size_t a = 0; a < attributes.size(); ++a)
+      row(attributes[a], allowed.attribute[a], [&](const auto& s) { return s.attribute[a]; });
   }
   return out;
 }

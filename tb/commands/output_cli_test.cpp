@@ -90,4 +90,36 @@ TEST_F(Cli, ConcaveFacesAreCounted) {
   EXPECT_NE(star.out.find("1 of these faces"), std::string::npos) << star.out;
 }
 
+TEST_F(Cli, AttributesHaveNames) {
+  const auto head = [&](const std::string& arguments) {
+    const Outcome outcome = run("fragments --size 16x16 --out - " + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out.substr(0, outcome.out.find('\n'))
+        .substr(std::string("quad,x,y,front,flags,l0,l1,l2,l3,z").size());
+  };
+  EXPECT_EQ(head("--scene sphere --shade uv"), ",u,v");
+  EXPECT_EQ(head("--scene phong_mesh --shade normal"), ",nx,ny,nz");
+  EXPECT_EQ(head("--scene sphere --shade planes"), ",px,py,pz");
+  EXPECT_EQ(head("--scene sphere --shade depth"), "");
+  EXPECT_EQ(head("--stress general"), ",a0,a1,a2,a3");
+  const Outcome errors = run("fragments --size 16x16 --out - --scene sphere --shade uv --errors");
+  EXPECT_NE(errors.out.find(",v,"), std::string::npos) << errors.err;
+}
+
+TEST_F(Cli, ArraysForNumpy) {
+  ASSERT_EQ(run("fragments --scene sphere --size 32x24 --out f.npz --quiet").status, 0);
+  ASSERT_EQ(run("render --scene sphere --size 32x24 --out r.npz --quiet").status, 0);
+  write("read.py",
+        "import io, sys, zipfile\n"
+        "for path, names in (('f.npz', ['quad', 'u', 'z']), ('r.npz', ['Z', 'quad', 'error.L0'])):\n"
+        "    archive = zipfile.ZipFile(path)\n"
+        "    assert archive.testzip() is None, path\n"
+        "    missing = [n for n in names if n + '.npy' not in archive.namelist()]\n"
+        "    assert not missing, (path, missing)\n");
+  EXPECT_EQ(std::system(("cd '" + file("").string() + "' && python3 read.py").c_str()), 0);
+  refuses(2, "fragments --scene sphere --errors --out e.npz", {"--errors writes CSV", "e.csv"});
+  refuses(2, "fragments --scene sphere --out e.exr", {"e.exr", "CSV or NumPy arrays, not OpenEXR", "e.csv"});
+  refuses(2, "render --scene sphere --out e.csv", {"OpenEXR or NumPy arrays, not CSV", "e.exr"});
+}
+
 }  // namespace

@@ -41,7 +41,7 @@ int render(const RenderOptions& options, const Invocation& invocation) {
     settings.snap = false;
   }
   if (options.out.empty() && options.png.empty())
-    throw UsageError("--out F.exr and --png F.png are missing; give one or both");
+    throw UsageError("--out F.exr or F.npz and --png F.png are missing; give one or both");
   std::vector<std::string> read = options.input.files();
   read.insert(read.end(), {options.common.config_file, options.texture});
   check_outputs({options.out, options.png, options.input.save_camera, options.common.json}, read);
@@ -86,7 +86,10 @@ int render(const RenderOptions& options, const Invocation& invocation) {
   golden::FrameImage image = shade_frame(frame, shading);
   if (errors)
     add_error_layers(frame, input.quads, settings.config, settings.state, settings.snap, settings.threads, image);
-  if (!options.out.empty()) golden::save_exr(options.out, image);
+  if (has_ending(options.out, "npz"))
+    golden::save_frame_npz(options.out, image);
+  else if (!options.out.empty())
+    golden::save_exr(options.out, image);
   if (!options.png.empty()) save_frame_png(options.png, image);
 
   const double seconds = start.seconds();
@@ -163,8 +166,8 @@ void add_render_command(CLI::App& app, Invocation& invocation) {
   options->state.add_to(*command);
   options->engine.add_to(*command, options->method);
   options->input.add_picture_options(*command, options->shade, options->texture);
-  writes_file(*command, command->add_option("--out", options->out, "Picture with depth, weights, ids and errors"),
-              "exr")
+  writes_one_of(*command, command->add_option("--out", options->out, "Picture with depth, weights, ids and errors"),
+                {"exr", "npz"})
       ->group(output_group);
   writes_file(*command, command->add_option("--png", options->png, "Picture"), "png")->group(output_group);
   command->add_flag("--no-error", options->no_error, "No error layers in --out")->group(output_group);

@@ -60,6 +60,18 @@ TEST_F(CliShrink, FaultInAFixedPointBit) {
   const Outcome again = run(less + " --quiet");
   EXPECT_EQ(again.status, 1) << less << again.err;
   EXPECT_NE(again.err.find("stage fragment, field"), std::string::npos) << again.err;
+  // The pixel that is left, explained: everything is the same but what leaves the machine.
+  const std::size_t explain = whole.err.find("  its pixel explained: quadrille explain --quads less.quads ");
+  ASSERT_NE(explain, std::string::npos) << whole.err;
+  const std::size_t begin = whole.err.find("explain --quads", explain);
+  const Outcome explained = run(whole.err.substr(begin, whole.err.find('\n', begin) - begin));
+  EXPECT_EQ(explained.status, 1) << explained.err;
+  EXPECT_NE(explained.out.find("[sum]  (RTL: the same)"), std::string::npos) << explained.out;
+  EXPECT_NE(explained.out.find("(RTL: differs)"), std::string::npos) << explained.out;
+  EXPECT_NE(plain.err.find("the pixel explained: quadrille explain --engine rtl --rtl rtl --scene bowtie"),
+            std::string::npos)
+      << plain.err;
+
   const std::string sound = less.substr(0, less.find(" --rtl"));
   EXPECT_EQ(run(sound + " --quiet").status, 0) << sound;
 }

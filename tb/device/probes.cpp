@@ -12,9 +12,9 @@ namespace {
 struct Place {
   const char *valid, *scope;
 };
-constexpr Place places[]{{"u_quadrille.take", "u_quadrille."},
+constexpr Place places[]{{"u_quadrille.take", "u_quadrille.setup."},
                          {nullptr, nullptr},  // the tile ring's words: quadrille_probed.sv
-                         {"u_quadrille.stamp_push", "u_quadrille.stamp_"},
+                         {"u_quadrille.u_tiles.stamp_push", "u_quadrille.u_tiles.stamp."},
                          {"`QUADRILLE_LANE.valid_q[DIFF_STAGE]", "`QUADRILLE_LANE.diff_"},
                          {"`QUADRILLE_LANE.valid_q[NORM_STAGE]", "`QUADRILLE_LANE.norm_"},
                          {"`QUADRILLE_LANE.valid_q[ROOT_STAGE]", "`QUADRILLE_LANE.root_"},
@@ -81,7 +81,7 @@ std::string probes_header() {
          "package quadrille_probes_pkg;\n  import quadrille_pkg::*;\n" +
          structs +
          "endpackage\n\n"
-         "`define QUADRILLE_LANE u_quadrille.u_pipeline.gen_lane[g].u_lane\n\n"
+         "`define QUADRILLE_LANE u_quadrille.u_pixel.u_pipeline.gen_lane[g].u_lane\n\n"
          "`define QUADRILLE_PROBE_PORTS" +
          ports + "\n\n`define QUADRILLE_PROBES" + connections + "\n\n`define QUADRILLE_LANE_PROBES" + lane_connections +
          "\n";

@@ -38,14 +38,14 @@ module quadrille_probed
   probe_tile_t tile;
 
   always_ff @(posedge clk_i) begin
-    probe_tile_valid_o <= rst_ni && u_quadrille.u_ring.complete_i;
-    entry_q <= u_quadrille.u_ring.complete_q[RING_LOG2-1:0];
+    probe_tile_valid_o <= rst_ni && u_quadrille.u_tiles.u_ring.words.complete;
+    entry_q <= u_quadrille.u_tiles.u_ring.complete_q[RING_LOG2-1:0];
   end
 
-  assign {tile.end_token, tile_homogeneous, tile.slot, tile.tile_x, tile.tile_y} = probe_tile_valid_o ? u_quadrille.u_ring.tag_q[entry_q] : '0;
+  assign {tile.end_token, tile_homogeneous, tile.slot, tile.tile_x, tile.tile_y} = probe_tile_valid_o ? u_quadrille.u_tiles.u_ring.tag_q[entry_q] : '0;
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
-    assign tile.lin_value[g*VAL_BITS+:VAL_BITS] = probe_tile_valid_o ? u_quadrille.u_ring.gen_linear[g].value_q[entry_q] : '0;
+    assign tile.lin_value[g*VAL_BITS+:VAL_BITS] = probe_tile_valid_o ? u_quadrille.u_tiles.u_ring.gen_linear[g].value_q[entry_q] : '0;
   end
 
   for (genvar g = 0; g < 10; g++) begin : gen_quadratic
@@ -55,10 +55,10 @@ module quadrille_probed
     logic [RING_LOG2-1:0] entry;
     assign there = probe_tile_valid_o && (g >= 6 || tile_homogeneous);
     assign entry = entry_q + RING_LOG2'(PART);
-    assign tile.quad_value[g*QVAL_BITS+:QVAL_BITS] = there ? u_quadrille.u_ring.gen_quadratic[LANE].value_q[entry] : '0;
-    assign tile.quad_gx[g*QGRAD_BITS+:QGRAD_BITS] = there ? u_quadrille.u_ring.gen_quadratic[LANE].gx_q[entry] : '0;
-    assign tile.quad_gy[g*QGRAD_BITS+:QGRAD_BITS] = there ? u_quadrille.u_ring.gen_quadratic[LANE].gy_q[entry] : '0;
-    assign tile.quad_q[g*QCURV_BITS+:QCURV_BITS] = there ? u_quadrille.u_ring.gen_quadratic[LANE].curv_q[entry] : '0;
+    assign tile.quad_value[g*QVAL_BITS+:QVAL_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].value_q[entry] : '0;
+    assign tile.quad_gx[g*QGRAD_BITS+:QGRAD_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].gx_q[entry] : '0;
+    assign tile.quad_gy[g*QGRAD_BITS+:QGRAD_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].gy_q[entry] : '0;
+    assign tile.quad_q[g*QCURV_BITS+:QCURV_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].curv_q[entry] : '0;
   end
 
   assign probe_tile_o = tile.end_token ? '{end_token: 1'b1, slot: tile.slot, default: '0} : tile;

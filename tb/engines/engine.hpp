@@ -64,7 +64,7 @@ struct EngineSample {
 /// Gets fragments in the order of the quads; within a quad in the engine's own order. The span lives for the call only.
 using SampleSink = std::function<void(std::span<const EngineSample>)>;
 
-/// Fragments of one quad as the machine gives them, over all passes.
+/// Fragments of one quad as the machine gives them, over all passes: all of them, or the next.
 struct QuadFragments {
   std::uint32_t index = 0;  ///< position of the quad in the draw
   std::uint32_t quad = 0;   ///< its id

@@ -119,6 +119,10 @@ class ModelEngine final : public Engine {
     // What is hidden depends on all quads before: those units are drawn one after the other by one set of models.
     const unsigned threads = skips_hidden(settings_.config, settings_.state) ? 1 : settings_.threads;
     const std::vector<std::size_t> begin = units_of(quads, settings_.state, std::size_t{16} * threads);
+    if (passes.size() == 1 && (threads == 1 || begin.size() == 2)) {
+      draw_one_by_one(quads, passes.front(), states.front(), sink);
+      return true;
+    }
     ordered_parallel(
         begin.size() - 1, threads,
         [&](std::size_t unit) {
@@ -146,15 +150,36 @@ class ModelEngine final : public Engine {
  private:
   using Models = std::vector<UntimedModel>;  ///< one per pass
 
+  /// In the snapped form of a pass; its id is its position.
+  SnappedQuad snapped_of(const WindowQuad& quad, std::size_t index, const Pass& pass, const DrawState& state) const {
+    const auto id = static_cast<std::uint32_t>(index);
+    return is_whole(pass, quad) ? snap_as(quad, id, settings_.config, state)
+                                : snap_as(pass_quad(quad, pass), id, settings_.config, state);
+  }
+
+  /// Without keeping a fragment: one pass, no other thread. The sink gets what the model gives.
+  void draw_one_by_one(std::span<const WindowQuad> quads, const Pass& pass, const DrawState& state,
+                       const QuadSink& sink) const {
+    UntimedModel model(settings_.config, state);
+    for (std::size_t i = 0; i < quads.size(); ++i)
+      model.draw_arrays(snapped_of(quads[i], i, pass, state), [&](const FragmentArrays& drawn) {
+        QuadFragments fragments;
+        fragments.index = static_cast<std::uint32_t>(i);
+        fragments.quad = quads[i].id;
+        fragments.common = drawn;
+        fragments.common.attributes = 0;
+        for (std::size_t slot = 0; slot < pass.columns.size(); ++slot)
+          fragments.column[static_cast<std::size_t>(pass.columns[slot])] = drawn.attribute[slot];
+        sink(fragments);
+      });
+  }
+
   void draw_quad(const WindowQuad& quad, std::size_t index, const std::vector<Pass>& passes,
                  const std::vector<DrawState>& states, Models& models, Columns& columns) const {
     const std::size_t start = columns.place.size();
     const bool plane = (settings_.state.skip & skip_plane) != 0;
     for (std::size_t p = 0; p < passes.size(); ++p) {
-      const auto id = static_cast<std::uint32_t>(index);
-      const SnappedQuad snapped = is_whole(passes[p], quad)
-                                      ? snap_as(quad, id, settings_.config, states[p])
-                                      : snap_as(pass_quad(quad, passes[p]), id, settings_.config, states[p]);
+      const SnappedQuad snapped = snapped_of(quad, index, passes[p], states[p]);
       std::size_t next = start;
       models[p].draw_arrays(snapped, [&](const FragmentArrays& fragments) {
         if (p == 0) {

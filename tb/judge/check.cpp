@@ -1,6 +1,7 @@
 #include "tb/judge/check.hpp"
 
 #include "model/skips/hierarchical_z.hpp"
+#include "tb/judge/drawn_depths.hpp"
 #include "tb/judge/fragment_reference.hpp"
 
 #include <algorithm>

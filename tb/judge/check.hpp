@@ -1,10 +1,10 @@
 // Fragments of the machine against the truth, as they come: coverage, singular classes, weights, attributes, depth.
 #pragma once
 
+#include "golden/analysis/judged_quad.hpp"
 #include "model/port/config.hpp"
 #include "model/port/records.hpp"
 #include "tb/judge/hidden_check.hpp"
-#include "tb/judge/judged_quad.hpp"
 #include "tb/judge/metric.hpp"
 #include "tb/passes/pass.hpp"
 #include "tb/support/error_stats.hpp"

@@ -2,9 +2,9 @@
 // found.
 #include "tb/judge/check.hpp"
 
+#include "golden/analysis/judged_quad.hpp"
 #include "model/port/snap.hpp"
 #include "model/untimed.hpp"
-#include "tb/judge/judged_quad.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "tb/judge/directed.hpp"
 
+#include "golden/analysis/judged_quad.hpp"
 #include "golden/reference/port_number.hpp"
-#include "tb/judge/judged_quad.hpp"
 
 #include <algorithm>
 #include <cmath>

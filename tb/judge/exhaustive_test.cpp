@@ -1,6 +1,7 @@
 // Everything there is, at small widths, against exact integers: every quad of a small grid with w of -1, 0 and 1, every
 // pair of operands of the arithmetic, every argument of the tables. The oracles are written from rtl/SPEC.md and use
 // nothing of the model.
+#include "golden/analysis/judged_quad.hpp"
 #include "golden/reference/exact_coverage.hpp"
 #include "golden/reference/truth.hpp"
 #include "model/front/quad_setup.hpp"
@@ -12,7 +13,6 @@
 #include "tb/judge/check.hpp"
 #include "tb/judge/exact_number.hpp"
 #include "tb/judge/function_check.hpp"
-#include "tb/judge/judged_quad.hpp"
 
 #include <gtest/gtest.h>
 

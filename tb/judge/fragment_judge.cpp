@@ -1,4 +1,5 @@
 // Fragments of a job against the truth.
+#include "tb/judge/drawn_depths.hpp"
 #include "tb/judge/fragment_reference.hpp"
 
 #include <cmath>

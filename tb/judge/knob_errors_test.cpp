@@ -1,9 +1,9 @@
 // Errors in units of the bound: what is exact has none, what fails is seen to fail, and a jump is found where one is.
 #include "tb/judge/knob_errors.hpp"
 
+#include "golden/analysis/judged_quad.hpp"
 #include "golden/scenes/approach.hpp"
 #include "golden/scenes/stress.hpp"
-#include "tb/judge/judged_quad.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,12 @@
 #include "tb/judge/pixel_error.hpp"
 
+#include "golden/analysis/judged_quad.hpp"
 #include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/regular_weights.hpp"
-#include "model/front/quad_setup.hpp"
-#include "model/front/stamp_coverage.hpp"
-#include "model/front/tile_context.hpp"
+#include "model/one_pixel.hpp"
 #include "model/port/snap.hpp"
 #include "tb/judge/check.hpp"
-#include "tb/judge/judged_quad.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,26 +24,6 @@ DrawState with_output(DrawState state, Output output) {
 Config with_slots(const Config& config) { return snapping_config(config, 4); }
 
 }  // namespace
-
-PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
-                       const PipelineContext& context, int px, int py) {
-  const SetupResult setup = quad_setup(quad, config, state);
-  const QuadConstants constants(setup);
-  TileEntry tile;
-  tile.tile_x = px >> config.tile_log2;
-  tile.tile_y = py >> config.tile_log2;
-  const int x = (tile.tile_x - setup.tile_x0) * config.tile(), y = (tile.tile_y - setup.tile_y0) * config.tile();
-  WalkState walk;
-  for (std::size_t k = 0; k < linear_count; ++k) walk.linear[k] = setup.linear[k].value;
-  walk_step(walk, constants, x, y);
-  tile.linear = walk.linear;
-  tile.quadratic = tile_context(constants, x, y, config.qdrop());
-  const int dx = px & (config.tile() - 1), row = py & (config.tile() - 1);
-  PixelAlone out;
-  out.covered = (stamp_coverage(tile, constants, row, config, state).mask >> dx & 1) != 0;
-  pixel_pipeline(out.trace, tile, constants, quad_data(quad, setup, config, state), dx, row, context);
-  return out;
-}
 
 /// The truth's formulas in 80-bit arithmetic on exact integers. Attributes and depth need more than weights do.
 struct PixelErrors::QuickTruth {
@@ -149,7 +127,7 @@ double PixelErrors::measure(const WindowQuad& quad, int px, int py) const {
   } catch (const SnapError&) {
     return -1;
   }
-  const PixelAlone pixel = pixel_alone(q, config_, state_, context_, px, py);
+  const OnePixel pixel = one_pixel(q, context_, px, py);
   if (!pixel.covered || !pixel.trace.drawn) return -1;
   const auto truth = quick_truth(q, px, py);
   return truth ? units_of(pixel.trace.fragment, q, *truth) : -1;

@@ -1,11 +1,11 @@
 // The error of one quad at one pixel: what searches for the largest error climb on, and their verdict.
 #pragma once
 
+#include "golden/analysis/judged_quad.hpp"
 #include "model/pixel/pixel_pipeline.hpp"
 #include "model/port/config.hpp"
 #include "model/port/records.hpp"
 #include "model/untimed.hpp"
-#include "tb/judge/judged_quad.hpp"
 #include "tb/support/outputs.hpp"
 
 #include <array>
@@ -13,14 +13,6 @@
 #include <string_view>
 
 namespace quadrille::tb {
-
-/// The model's pure functions at one pixel.
-struct PixelAlone {
-  bool covered = false;
-  PixelTrace trace;  ///< as if it were covered
-};
-PixelAlone pixel_alone(const SnappedQuad& quad, const Config& config, const DrawState& state,
-                       const PipelineContext& context, int x, int y);
 
 /// What the bound allows, in units of 2^-s of weights 1 to 3. Of weight 0, attributes and depth a unit is an eighth of
 /// what their bound allows them at the pixel (judged_quad.hpp), and the error begins where the output's rounding ends:

@@ -1,6 +1,7 @@
 // The stages of a pixel behind the front: every bit by rtl/SPEC.md, Pixel pipeline, in exact
 // numbers.
-#include "tb/judge/judged_quad.hpp"
+#include "golden/analysis/judged_quad.hpp"
+#include "tb/judge/drawn_depths.hpp"
 #include "tb/judge/stage_judge.hpp"
 
 namespace quadrille::tb {

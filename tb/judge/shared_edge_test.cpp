@@ -1,10 +1,10 @@
 // Two quads at a shared edge: both are within their bounds there, and how far apart their depths and attributes are.
+#include "golden/analysis/judged_quad.hpp"
 #include "golden/reference/port_number.hpp"
 #include "golden/scenes/random_mesh.hpp"
+#include "model/one_pixel.hpp"
 #include "model/support/prng.hpp"
 #include "tb/judge/judge.hpp"
-#include "tb/judge/judged_quad.hpp"
-#include "tb/judge/pixel_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ void measure_edge(const std::array<const SnappedQuad*, 2>& quads, const Config& 
   const FixedPoint depth = depth_format(config), attribute = attribute_format(config);
   for (std::size_t side = 0; side < 2; ++side) {
     const SnappedQuad& quad = *quads[side];
-    const PixelAlone pixel = pixel_alone(quad, config, state, context, at.x, at.y);
+    const OnePixel pixel = one_pixel(quad, context, at.x, at.y);
     // A concave quad's other edge may meet the pixel too.
     if (!pixel.trace.on_edge) return;
     fragment[side] = pixel.trace.fragment;

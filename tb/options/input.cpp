@@ -128,20 +128,6 @@ void need_no_object(const DrawInput& input) {
                      (input.shade == "planes" ? " or --mesh" : ""));
 }
 
-/// A machine's attributes have few integer bits: positions are halved until none is above 2, and the spacing with them.
-void fit_positions(DrawInput& input) {
-  double largest = 0;
-  for (const WindowQuad& quad : input.quads)
-    for (const std::vector<double>& position : quad.attribute)
-      for (const double c : position) largest = std::max(largest, std::fabs(c));
-  double scale = 1;
-  while (largest * scale > 2) scale /= 2;
-  for (WindowQuad& quad : input.quads)
-    for (std::vector<double>& position : quad.attribute)
-      for (double& c : position) c *= scale;
-  input.planes.spacing *= scale;
-}
-
 /// Projects, with what is wrong told as an input error of `place`.
 void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, bool strict,
              unsigned threads, const std::string& place, DrawInput& input) {
@@ -161,6 +147,8 @@ void project(const golden::Mesh& mesh, const golden::Camera& camera, int width, 
   input.planes = planes_across(input.corners);
   input.attributes = golden::attribute_count(options.attributes);
   input.layout = layout_of(options.attributes);
+  const auto names = golden::attribute_names(options.attributes);
+  input.attribute_names.assign(names.begin(), names.end());
   input.lighting.to_eye = golden::direction_to_eye(camera);
   input.faces = mesh.faces.size();
   input.triangles = projection.triangles;
@@ -207,7 +195,7 @@ void load_scene(const InputOptions& options, const std::string& shade, int width
   need_colours(scene.mesh, input);
   project(scene.mesh, scene.camera, width, height, options.strict, 1, "scene " + scene.name, input);
   if (scene.planes) input.planes = *scene.planes;
-  if (input.layout == AttributeLayout::position) fit_positions(input);
+  if (input.layout == AttributeLayout::position) golden::fit_positions(input.quads, input.planes);
 }
 
 void load_mesh(const InputOptions& options, const std::string& shade, int width, int height, unsigned threads,
@@ -230,7 +218,7 @@ void load_mesh(const InputOptions& options, const std::string& shade, int width,
   project(mesh, camera, width, height, options.strict, threads, options.mesh, input);
   remark_on_texture(mesh, input);
   remark_on_reading(mesh, input);
-  if (input.layout == AttributeLayout::position) fit_positions(input);
+  if (input.layout == AttributeLayout::position) golden::fit_positions(input.quads, input.planes);
 }
 
 void load_quads_file(const InputOptions& options, const std::string& shade, DrawInput& input) {
@@ -318,6 +306,8 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, cons
     load_stress(options, shade, state.width, state.height, seed, input);
   else
     load_corner(options, shade, state, config, seed, input);
+  for (auto j = static_cast<int>(input.attribute_names.size()); j < input.attributes; ++j)
+    input.attribute_names.push_back("a" + std::to_string(j));
   set_light(options, input.lighting);
   return input;
 }

@@ -34,9 +34,10 @@ struct DrawInput {
   std::vector<std::array<golden::Vec2, 4>> textures;  ///< texture coordinates of every quad, likewise
   int attributes = 0;                                 ///< per vertex
   AttributeLayout layout = AttributeLayout::none;
-  bool perspective = true;       ///< as the scene wants it
-  Cull cull = Cull::none;        ///< likewise
-  std::string shade = "lambda";  ///< shading that suits it
+  std::vector<std::string> attribute_names;  ///< u, v, …; of files and families a0, a1, …
+  bool perspective = true;                   ///< as the scene wants it
+  Cull cull = Cull::none;                    ///< likewise
+  std::string shade = "lambda";              ///< shading that suits it
   golden::TextureKind texture = golden::TextureKind::checker;
   Lighting lighting;
   golden::CuttingPlanes planes;  ///< of shade `planes`, in the unit of the position attributes (a power of two)

@@ -6,6 +6,7 @@
 #include "tb/device/build_notice.hpp"
 #include "tb/device/verilate.hpp"
 #include "tb/options/command_line.hpp"
+#include "tb/options/named_config.hpp"
 #include "tb/options/written_file.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
@@ -109,8 +110,10 @@ CLI::Validator whole_number(std::uint64_t most) {
 }
 
 void CommonOptions::add_to(CLI::App& app, bool draws) {
-  app.add_option("--config", config_file, "Configuration file; `quadrille config` lists the keys")
-      ->type_name("F.toml")
+  app.add_option("--config", config_file,
+                 "Configuration: a file, or a name of `quadrille config --list`; `quadrille config` lists the keys")
+      ->type_name("F.toml|NAME")
+      ->transform(config_path)
       ->group(config_group);
   app.add_option("--set", settings, "One configuration key, after --config; repeatable")
       ->type_name("KEY=VALUE")

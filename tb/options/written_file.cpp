@@ -62,12 +62,17 @@ std::string_view format_of(std::string_view ending) {
   return found == formats.end() ? std::string_view() : found->second;
 }
 
-std::string type_of(const std::string& ending) { return "F." + ending; }
+/// "F.exr", "F.exr|F.npz".
+std::string type_of(const std::vector<std::string>& endings) {
+  std::string type;
+  for (const std::string& ending : endings) type += (type.empty() ? "F." : "|F.") + ending;
+  return type;
+}
 
 /// The option of the command that writes files with this ending; empty: none.
 std::string writer_of(const CLI::App& command, const std::string& ending) {
   for (const CLI::Option* option : command.get_options()) {
-    if (option->get_type_name() != type_of(ending)) continue;
+    if (("|" + option->get_type_name() + "|").find("|F." + ending + "|") == std::string::npos) continue;
     try {
       static_cast<void>(const_cast<CLI::Option*>(option)->get_validator(validator_name));
       return option->get_name();
@@ -79,21 +84,25 @@ std::string writer_of(const CLI::App& command, const std::string& ending) {
 
 }  // namespace
 
-CLI::Option* writes_file(const CLI::App& command, CLI::Option* option, const std::string& ending) {
+bool has_ending(const std::string& path, std::string_view ending) { return ending_of(path) == ending; }
+
+CLI::Option* writes_one_of(const CLI::App& command, CLI::Option* option, const std::vector<std::string>& endings) {
   const CLI::Validator validator(
-      [&command, ending](std::string& path) -> std::string {
+      [&command, endings](std::string& path) -> std::string {
         const std::string given = ending_of(path);
         const std::string_view format = format_of(given);
-        if (given == ending || format.empty()) return {};
-        std::string text = path + ": this option writes " + std::string(format_of(ending)) + ", not " +
-                           std::string(format) + "; expected a name such as " +
-                           std::filesystem::path(path).replace_extension(ending).string();
+        if (format.empty() || std::ranges::find(endings, given) != endings.end()) return {};
+        std::string text = path + ": this option writes ";
+        for (const std::string& ending : endings)
+          text += (&ending == &endings.front() ? "" : " or ") + std::string(format_of(ending));
+        text += ", not " + std::string(format) + "; expected a name such as " +
+                std::filesystem::path(path).replace_extension(endings.front()).string();
         if (const std::string other = writer_of(command, given); !other.empty())
           text += ", or " + other + " for " + std::string(format);
         return text;
       },
       "", validator_name);
-  return option->type_name(type_of(ending))->check(validator);
+  return option->type_name(type_of(endings))->check(validator);
 }
 
 CLI::Option* writes_folder(CLI::Option* option) {

@@ -2,6 +2,7 @@
 
 #include "golden/io/texture.hpp"
 #include "golden/reference/truth.hpp"
+#include "golden/scenes/shading.hpp"
 #include "model/port/snap.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/support/choices.hpp"
@@ -16,76 +17,7 @@ namespace {
 
 using golden::Vec3;
 
-constexpr Vec3 background{0.22, 0.22, 0.23};
-constexpr Vec3 undefined_colour{1, 0, 1};
-
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vec3 normalised(const Vec3& v) {
-  const double length = std::sqrt(dot(v, v));
-  return length > 0 ? Vec3{v[0] / length, v[1] / length, v[2] / length} : Vec3{0, 0, 1};
-}
-
-/// In [0, 1] for any finite coordinate; 1 stays 1. Less than a step of 8 bits beyond an end is that end: an attribute
-/// may pass its corners' by the machine's bound.
-double wrapped(double c) {
-  constexpr double step = 1.0 / 256;
-  return c > -step && c < 1 + step ? std::clamp(c, 0.0, 1.0) : c - std::floor(c);
-}
-
-/// Phong's model with one distant light, both sides lit alike. Directions of unit length.
-Vec3 phong(Vec3 n, const Lighting& lighting) {
-  const auto& [to_eye, to_light] = lighting;
-  static constexpr Vec3 base{0.78, 0.74, 0.68};
-  n = normalised(n);
-  if (dot(n, to_eye) < 0) n = {-n[0], -n[1], -n[2]};
-  const Vec3 half = normalised({to_light[0] + to_eye[0], to_light[1] + to_eye[1], to_light[2] + to_eye[2]});
-  const double diffuse = 0.18 + 0.75 * std::max(0.0, dot(n, to_light));
-  double shine = std::max(0.0, dot(n, half));
-  for (int i = 0; i < 5; ++i) shine *= shine;  // to the 32nd
-  return {base[0] * diffuse + 0.35 * shine, base[1] * diffuse + 0.35 * shine, base[2] * diffuse + 0.35 * shine};
-}
-
-/// The vector area of a quad.
-Vec3 facet_normal(const std::array<Vec3, 4>& corner) {
-  Vec3 a{}, b{};
-  for (std::size_t i = 0; i < 3; ++i) a[i] = corner[2][i] - corner[0][i], b[i] = corner[3][i] - corner[1][i];
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// The corners' colours, mixed by the weights.
-Vec3 weight_colour(const std::array<double, 4>& lambda) {
-  static constexpr std::array<Vec3, 4> corner{
-      {{0.90, 0.22, 0.20}, {0.20, 0.72, 0.30}, {0.22, 0.42, 0.95}, {0.96, 0.86, 0.25}}};
-  Vec3 colour{};
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t c = 0; c < 3; ++c) colour[c] += lambda[i] * corner[i][c];
-  return colour;
-}
-
-/// A colour that an eye tells from what is not drawn and from what is undefined.
-bool stands_out(const Vec3& colour) {
-  constexpr double least = 0.3;
-  const auto far_from = [&](const Vec3& other) {
-    return std::max({std::fabs(colour[0] - other[0]), std::fabs(colour[1] - other[1]),
-                     std::fabs(colour[2] - other[2])}) >= least;
-  };
-  return far_from(background) && far_from(undefined_colour);
-}
-
-/// One of many well-separated colours.
-Vec3 id_colour(std::uint32_t id) {
-  std::uint32_t h = id * 0x9e3779b1u;
-  for (;;) {
-    h ^= h >> 15;
-    h *= 0x85ebca6bu;
-    h ^= h >> 13;
-    const auto part = [&](int shift) { return 0.25 + 0.7 * static_cast<double>((h >> shift) & 0xff) / 255; };
-    const Vec3 colour{part(0), part(8), part(16)};
-    if (stands_out(colour)) return colour;
-    h += 0x9e3779b1u;
-  }
-}
 
 std::size_t slot(int first, int offset) { return static_cast<std::size_t>(first + offset); }
 
@@ -184,7 +116,7 @@ ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
   if (input.layout == AttributeLayout::colour) slots.colour = 0;
   if (shade == "planes") {
     slots.planes = input.planes;
-    for (const auto& corner : input.corners) slots.facets.push_back(facet_normal(corner));
+    for (const auto& corner : input.corners) slots.facets.push_back(golden::facet_normal(corner));
   }
   if (input.layout == AttributeLayout::file) {
     if (input.attributes >= 2) slots.uv = 0;
@@ -205,7 +137,7 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
   frame.settle();
   golden::FrameImage image(frame.width(), frame.height());
   const std::size_t mode = choose("shading", settings.shade, shade_modes());
-  const Lighting lighting{settings.lighting.to_eye, normalised(settings.lighting.to_light)};
+  const Vec3 &to_eye = settings.lighting.to_eye, to_light = golden::unit_vector(settings.lighting.to_light);
 
   // Depth is shown between its extremes in the frame.
   double nearest = 1, farthest = 0;
@@ -222,7 +154,6 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     return Vec3{s.attribute[slot(first, 0)], s.attribute[slot(first, 1)], s.attribute[slot(first, 2)]};
   };
 
-  // Flat, with a line of constant width where a plane cuts the surface; dark and bright take turns.
   const auto height = [&](const EngineSample& s) {
     return dot(settings.slots.planes.normal, attribute3(s, settings.slots.position)) / settings.slots.planes.spacing -
            0.5;
@@ -237,37 +168,30 @@ golden::FrameImage shade_frame(const FrameBuffer& frame, const ShadeSettings& se
     return 0.0;
   };
   const auto cut = [&](const EngineSample& s) {
-    const Vec3 flat = phong(settings.slots.facets[s.index], lighting);
-    const double here = height(s), plane = std::round(here);
-    const double steepness = std::hypot(slope(s, 1, 0), slope(s, 0, 1));
-    if (!(steepness > 0)) return flat;
-    const double pixels = std::fabs(here - plane) / steepness;
-    const double cover = std::clamp(1.25 - pixels, 0.0, 1.0);
-    const double line = std::fmod(plane, 2) == 0 ? 0.08 : 0.98;
-    return Vec3{flat[0] + (line - flat[0]) * cover, flat[1] + (line - flat[1]) * cover,
-                flat[2] + (line - flat[2]) * cover};
+    const Vec3 flat = golden::phong(settings.slots.facets[s.index], to_eye, to_light);
+    return golden::cut_colour(flat, height(s), std::hypot(slope(s, 1, 0), slope(s, 0, 1)));
   };
 
   const auto colour_of = [&](const EngineSample& s) -> Vec3 {
-    if (s.undefined) return undefined_colour;
+    if (s.undefined) return golden::undefined_colour;
     std::array<double, 2> uv{s.lambda[1] + s.lambda[2], s.lambda[2] + s.lambda[3]};  // the unit square
     if (settings.slots.uv >= 0) uv = {s.attribute[slot(settings.slots.uv, 0)], s.attribute[slot(settings.slots.uv, 1)]};
     switch (mode) {
       case 0:
-        return {wrapped(uv[0]), wrapped(uv[1]), 0.25};
+        return {golden::wrapped(uv[0]), golden::wrapped(uv[1]), 0.25};
       case 1:
         return settings.texture(uv[0], uv[1]);
       case 2:
-        return phong(attribute3(s, settings.slots.normal), lighting);
+        return golden::phong(attribute3(s, settings.slots.normal), to_eye, to_light);
       case 3:
-        return weight_colour(s.lambda);
+        return golden::weight_colour(s.lambda);
       case 4: {
         // Down to 0.4: darker ones would pass through the background's grey.
         const double grey = farthest > nearest ? 0.95 - 0.55 * (s.z - nearest) / (farthest - nearest) : 0.95;
         return {grey, grey, grey};
       }
       case 5:
-        return id_colour(s.quad);
+        return golden::id_colour(s.quad);
       case 6:
         return cut(s);
       default:
@@ -339,14 +263,11 @@ golden::Image8 frame_picture(const golden::FrameImage& image) {
   picture.width = image.width;
   picture.height = image.height;
   picture.rgba.reserve(image.pixels() * 4);
-  const auto byte = [](double value) {
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
-  };
   for (std::size_t i = 0; i < image.pixels(); ++i) {
     const bool drawn = image.a[i] > 0;
-    picture.rgba.push_back(byte(drawn ? static_cast<double>(image.r[i]) : background[0]));
-    picture.rgba.push_back(byte(drawn ? static_cast<double>(image.g[i]) : background[1]));
-    picture.rgba.push_back(byte(drawn ? static_cast<double>(image.b[i]) : background[2]));
+    picture.rgba.push_back(golden::to_byte(drawn ? static_cast<double>(image.r[i]) : golden::background_colour[0]));
+    picture.rgba.push_back(golden::to_byte(drawn ? static_cast<double>(image.g[i]) : golden::background_colour[1]));
+    picture.rgba.push_back(golden::to_byte(drawn ? static_cast<double>(image.b[i]) : golden::background_colour[2]));
     picture.rgba.push_back(255);
   }
   return picture;

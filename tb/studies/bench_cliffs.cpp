@@ -11,7 +11,7 @@
 #include "tb/options/written_file.hpp"
 #include "tb/studies/bench_timing.hpp"
 #include "tb/studies/bench_widths.hpp"
-#include "tb/studies/method_engine.hpp"
+#include "tb/studies/method_input.hpp"
 #include "tb/studies/shader/quad_shader.hpp"
 #include "tb/support/environment_error.hpp"
 #include "tb/support/errors.hpp"

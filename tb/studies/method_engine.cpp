@@ -1,10 +1,10 @@
 #include "tb/studies/method_engine.hpp"
 
 #include "model/support/parallel.hpp"
-#include "tb/support/errors.hpp"
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace quadrille::tb {
 namespace {
@@ -13,8 +13,8 @@ namespace methods = golden::methods;
 
 class MethodEngine final : public Engine {
  public:
-  MethodEngine(const std::string& method, const DrawInput& input, const EngineSettings& settings)
-      : method_(methods::make_method(method)), quads_(method_quads(input, method)), settings_(settings) {}
+  MethodEngine(const std::string& method, std::vector<methods::Quad> quads, const EngineSettings& settings)
+      : method_(methods::make_method(method)), quads_(std::move(quads)), settings_(settings) {}
 
   void draw(std::span<const WindowQuad> quads, int attributes, bool, const SampleSink& sink) override {
     if (quads.size() != quads_.size()) throw std::logic_error("method engine: other quads than its input's");
@@ -67,25 +67,11 @@ class MethodEngine final : public Engine {
 
 }  // namespace
 
-std::vector<methods::Quad> method_quads(const DrawInput& input, const std::string& method) {
-  const bool has_object_space = input.corners.size() == input.quads.size();
-  if (!has_object_space && methods::make_method(method)->needs_object_space())
-    throw UsageError("method " + method + " needs corners in object space, which " + input.name +
-                     " does not have; use --scene or --mesh");
-  std::vector<methods::Quad> quads(input.quads.size());
-  for (std::size_t i = 0; i < quads.size(); ++i) {
-    quads[i].vertex = input.quads[i].vertex;
-    quads[i].attribute = input.quads[i].attribute;
-    if (has_object_space) quads[i].object = input.corners[i], quads[i].texture = input.textures[i];
-  }
-  return quads;
-}
-
 methods::View method_view(const DrawState& state) { return {state.width, state.height, state.perspective}; }
 
-std::unique_ptr<Engine> make_method_engine(const std::string& method, const DrawInput& input,
+std::unique_ptr<Engine> make_method_engine(const std::string& method, std::vector<methods::Quad> quads,
                                            const EngineSettings& settings) {
-  return std::make_unique<MethodEngine>(method, input, settings);
+  return std::make_unique<MethodEngine>(method, std::move(quads), settings);
 }
 
 }  // namespace quadrille::tb

@@ -3,7 +3,6 @@
 
 #include "golden/methods/method.hpp"
 #include "tb/engines/engine.hpp"
-#include "tb/options/input.hpp"
 
 #include <memory>
 #include <string>
@@ -11,16 +10,13 @@
 
 namespace quadrille::tb {
 
-/// The input's quads as the methods take them: with corners in object space, texture coordinates and attributes. Throws
-/// UsageError when the input has no object space (--quads, --stress) and `method` needs it.
-std::vector<golden::methods::Quad> method_quads(const DrawInput& input, const std::string& method);
-
 /// The view of a draw state.
 golden::methods::View method_view(const DrawState& state);
 
-/// Draws with `method`. The quads given to draw() must be those of `input`, which must outlive the engine. Uses of the
-/// settings only state and threads: cull mode, scissor, znear and zfar are applied to the method's fragments.
-std::unique_ptr<Engine> make_method_engine(const std::string& method, const DrawInput& input,
+/// Draws with `method`, `quads` as it takes them; draw() must be given the same quads. Uses of the settings only state
+/// and threads: cull mode, scissor, znear and zfar are applied to the method's fragments. Throws std::invalid_argument
+/// for an unknown method.
+std::unique_ptr<Engine> make_method_engine(const std::string& method, std::vector<golden::methods::Quad> quads,
                                            const EngineSettings& settings);
 
 }  // namespace quadrille::tb

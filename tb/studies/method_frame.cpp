@@ -1,7 +1,7 @@
 #include "tb/studies/method_frame.hpp"
 
 #include "model/port/snap.hpp"
-#include "tb/studies/method_engine.hpp"
+#include "tb/studies/method_input.hpp"
 #include "tb/support/errors.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "tb/studies/method_timing.hpp"
 
-#include "tb/studies/method_engine.hpp"
+#include "tb/studies/method_input.hpp"
 #include "tb/support/stopwatch.hpp"
 
 #include <algorithm>

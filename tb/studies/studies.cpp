@@ -3,7 +3,7 @@
 
 #include "golden/methods/method.hpp"
 #include "tb/commands/commands.hpp"
-#include "tb/studies/method_engine.hpp"
+#include "tb/studies/method_input.hpp"
 #include "tb/studies/shader/shader_engine.hpp"
 
 namespace quadrille::tb {

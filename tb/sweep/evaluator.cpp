@@ -1,9 +1,9 @@
 #include "tb/sweep/evaluator.hpp"
 
+#include "model/drive.hpp"
 #include "model/port/snap.hpp"
 #include "model/port/tables.hpp"
 #include "model/support/parallel.hpp"
-#include "tb/lockstep/lockstep.hpp"
 #include "tb/support/stopwatch.hpp"
 #include "tb/sweep/point_draws.hpp"
 
@@ -145,17 +145,19 @@ struct Evaluator::Impl {
     std::vector<std::size_t> points;
   };
 
-  std::uint64_t clocks(const Config& config) const {
-    tb::LockstepOptions options;
-    options.config = widest_port(config);
-    options.state = with_possible_skips(input.state, options.config);
-    options.config.attribute_slots = 1;
-    options.state.attributes = 0;
+  std::uint64_t clocks(const Config& point) const {
+    Config config = widest_port(point);
+    DrawState state = with_possible_skips(input.state, config);
+    config.attribute_slots = 1;
+    state.attributes = 0;
     // Snapped anew: the quads kept by positions have bases of another configuration's formats.
     std::vector<SnappedQuad> snapped;
-    for (const WindowQuad& quad : input.quads) snapped.push_back(own_port(quad, 0, options.config, options.state));
+    for (const WindowQuad& quad : input.quads) snapped.push_back(own_port(quad, 0, config, state));
     for (std::size_t q = 0; q < snapped.size(); ++q) snapped[q].id = static_cast<std::uint32_t>(q);
-    return tb::run_clocked_model_alone(snapped, options).cycles;
+    DrivenModel machine(config, state);
+    SteadyBeats beats(snapped);
+    return drive(machine, beats,
+                 [&](std::uint64_t, const ClockedOutputs& out, bool) { return !beats.done() || out.busy; });
   }
 
   CyclesKey cycles_of(const Config& config) const { return cycles_key(config, input.state); }

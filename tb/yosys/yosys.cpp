@@ -20,14 +20,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// `read_verilog` of tables, packages and modules with the configuration's defines.
+/// `read_verilog` of tables, packages and modules with the configuration's defines, for Yosys run in `directory`, where
+/// it looks for what they include: it takes no quotes around the folder of -I.
 std::string read_commands(const Config& config, const fs::path& directory) {
   const fs::path tables = directory / "quadrille_tables_pkg.sv";
   std::ofstream out(tables);
   out << tables_package(config);
   out.close();
   if (!out) throw SystemError("cannot write " + tables.string());
-  std::string command = "read_verilog -sv -DSYNTHESIS=1 -I \"" + rtl_includes(rtl_directory()).string() + "\"";
+  for (const fs::path& header : rtl_headers(rtl_includes(rtl_directory())))
+    fs::copy_file(header, directory / header.filename(), fs::copy_options::overwrite_existing);
+  std::string command = "read_verilog -sv -DSYNTHESIS=1";
   for (const std::string& define : key_defines(config)) command += " " + define;
   command += " \"" + tables.string() + "\"";
   for (const fs::path& source : rtl_sources(rtl_directory())) command += " \"" + fs::absolute(source).string() + "\"";

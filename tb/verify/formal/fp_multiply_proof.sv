@@ -1,4 +1,5 @@
-// fp_multiply is fp_multiply of rtl/SPEC.md, Numbers, for all pairs of numbers.
+// fp_multiply is fp_multiply of rtl/SPEC.md, Numbers, for all pairs of numbers. Above 18 bits the product is that of the proof
+// significand_product.
 // Assumed: the factors are significand numbers: the top bit is set, or significand and exponent are 0.
 module fp_multiply_proof #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS,
@@ -25,10 +26,15 @@ module fp_multiply_proof #(
 
   logic [2*S-1:0] product;
 
+  quadrille_significand_product u_product (
+      .a_i(a_sig_i),
+      .b_i(b_sig_i),
+      .product_o(product)
+  );
+
   always_comb begin
     assume (a_sig_i[S-1] || (a_sig_i == '0 && a_exp_i == '0));
     assume (b_sig_i[S-1] || (b_sig_i == '0 && b_exp_i == '0));
-    product = {{S{1'b0}}, a_sig_i} * {{S{1'b0}}, b_sig_i};
     exp_spec = a_exp_i + b_exp_i;
     if (a_sig_i == '0 || b_sig_i == '0) begin
       exp_spec = '0;

@@ -15,7 +15,7 @@
   logic [TILE-1:0] left_q, left;  // of the head's pixels
   logic fresh_q;  // nothing of the head has been sent
   logic [1:0] parts_q;  // of its next pixels that went before
-  logic [HEAD-1:0] head, head_q;
+  logic [HEAD-1:0] whole_head, head_q;
   logic held_q;
   logic go, pixels, mine;
   logic [TILE_LOG2:0] below;  // pixels that are left below the chosen one
@@ -25,10 +25,10 @@
   logic [TILE_LOG2:0] below_q;
   logic [TILE_LOG2:0] many;  // pixels that are left
 
-  assign head = {head_end_i, head_homogeneous_i, head_ptr_i, head_row_i, head_mask_i, head_front_i, head_tie_i};
-  assign left = fresh_q ? head_mask_i : left_q;
-  assign go = head_valid_i && !head_end_i && taken_q < TAKEN'(1 << PLACES);
-  assign pixels = go && (!head_homogeneous_i || parts_q == 2'd2);
+  assign whole_head = {head.end_token, head.homogeneous, head.tile_ptr, head.row, head.mask, head.front, head.tie};
+  assign left = fresh_q ? head.mask : left_q;
+  assign go = head_valid_i && !head.end_token && taken_q < TAKEN'(1 << PLACES);
+  assign pixels = go && (!head.homogeneous || parts_q == 2'd2);
 
   always_comb begin
     below = '0;
@@ -70,42 +70,42 @@
       if (pop_o) fresh_q <= 1'b1;
       else if (pixels) fresh_q <= 1'b0;
       if (pixels) left_q <= left_next;
-      if (go) parts_q <= (!head_homogeneous_i || parts_q == 2'd2) ? 2'd0 : parts_q + 2'd1;
+      if (go) parts_q <= (!head.homogeneous || parts_q == 2'd2) ? 2'd0 : parts_q + 2'd1;
       held_q <= head_valid_i && !pop_o;
       pixels_q <= pixels;
       mine_q <= mine;
-      end_q <= head_valid_i && head_end_i;
-      part_spec_q <= (go && head_homogeneous_i) ? parts_q + 2'd1 : 2'd0;
+      end_q <= head_valid_i && head.end_token;
+      part_spec_q <= (go && head.homogeneous) ? parts_q + 2'd1 : 2'd0;
     end
-    head_q <= head;
+    head_q <= whole_head;
     below_q <= below;
-    front_q <= head_front_i[which];
-    tie_q <= head_tie_i[which];
-    row_q <= head_row_i;
+    front_q <= head.front[which];
+    tie_q <= head.tie[which];
+    row_q <= head.row;
   end
 
   logic [P-1:0] is_mine;
-  always_comb for (int g = 0; g < P; g++) is_mine[g] = valid_o[g] && dx_o[g*TILE_LOG2+:TILE_LOG2] == which;
+  always_comb for (int g = 0; g < P; g++) is_mine[g] = sent_valid[g] && sent_dx[g*TILE_LOG2+:TILE_LOG2] == which;
 
   always_comb begin
     if (rst_ni) begin
-      assume (!held_q || (head_valid_i && head == head_q));
-      assume (!head_valid_i || head_end_i || head_mask_i != '0);
+      assume (!held_q || (head_valid_i && whole_head == head_q));
+      assume (!head_valid_i || head.end_token || head.mask != '0);
       assume (TAKEN'(freed_i) + TAKEN'(discard_i) <= taken_q);
       assert (taken_q <= TAKEN'(1 << PLACES));
-      assert (pop_o == (head_valid_i && (head_end_i || (pixels && left_next == '0))));
+      assert (pop_o == (head_valid_i && (head.end_token || (pixels && left_next == '0))));
       // A clock later: the chosen pixel in the lane of its rank, and nowhere else
-      assert (valid_o[0] == pixels_q);
+      assert (sent_valid[0] == pixels_q);
       assert (is_mine == (mine_q ? P'(1) << below_q : P'(0)));
-      for (int g = 0; g < P; g++) if (mine_q && is_mine[g]) assert (front_o[g] == front_q && tie_o[g] == tie_q);
-      assert (!mine_q || row_o == row_q);
-      assert (end_o == end_q && part_o == part_spec_q);
+      for (int g = 0; g < P; g++) if (mine_q && is_mine[g]) assert (sent_front[g] == front_q && sent_tie[g] == tie_q);
+      assert (!mine_q || sent_row == row_q);
+      assert (sent_end == end_q && sent_part == part_spec_q);
       // Invariants
       assert (spare_q == TAKEN'((1 << PLACES) - 1) - taken_q);
       assert (part_q == parts_q && parts_q < 2'd3);
       assert (fresh_q || held_q);
-      assert (parts_q == 2'd0 || (held_q && head_homogeneous_i));
-      assert (sent_q == (fresh_q ? TILE'(0) : head_mask_i & ~left_q));
-      assert (fresh_q || (left_q != '0 && (left_q & ~head_mask_i) == '0));
+      assert (parts_q == 2'd0 || (held_q && head.homogeneous));
+      assert (sent_q == (fresh_q ? TILE'(0) : head.mask & ~left_q));
+      assert (fresh_q || (left_q != '0 && (left_q & ~head.mask) == '0));
     end
   end

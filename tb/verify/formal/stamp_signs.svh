@@ -6,7 +6,7 @@
   always_comb assume (rst_ni);
 
   logic signed [WIDER-1:0] gx;
-  assign gx = $signed(lin_gx_i[0+:GRAD]);
+  assign gx = $signed(edges.gx[0+:GRAD]);
 
   for (genvar k = 0; k < TILE / 2; k++) begin : gen_odd
     logic signed [WIDER-1:0] multiple, made, limit;

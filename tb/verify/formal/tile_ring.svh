@@ -6,8 +6,8 @@
   // six linear functions, and with the word of one quadratic function of one part, both chosen freely.
   // Assumed of the users, where it is guaranteed behind it:
   //   reset at the start and no more; no push when full (tile_walk waits for ring_full; asserted in tile_ring, so in simulation too)
-  //   complete_i, tile by tile in the order of the pushes, for what was pushed and is not complete (tile_context, one tile at a time, last step)
-  //   words are written to entries that were pushed and are not complete, that of this clock's complete_i included (tile_context: a step's job
+  //   words.complete, tile by tile in the order of the pushes, for what was pushed and is not complete (tile_context, one tile at a time, last step)
+  //   words are written to entries that were pushed and are not complete, that of this clock's words.complete included (tile_context: a step's job
   //     has its entry with it, and complete_o leaves job_q with the last one)
   //   fetch and load of complete entries not given back (stamp_coverage fetches what is present, and loads what it fetched; stamp_ptr_o is behind)
   //   emission reads such entries (pixel_emit: ptr_o is the head's pointer of the clock before, which the tail has reached then)
@@ -24,7 +24,7 @@
 
   assign parts_come = homogeneous_i && !end_i;
   assign push_size = parts_come ? PARTS : (RING + 1)'(1);
-  assign step = complete_homogeneous_i ? PARTS : (RING + 1)'(1);
+  assign step = words.complete_homogeneous ? PARTS : (RING + 1)'(1);
   assign given_next = head_valid_i ? head_ptr_i : stamps_empty_i ? stamp_ptr_i : given_q;
   assign occupied = pushed_q - given_q;
   assign complete_in_use = completed_q - given_q;
@@ -37,7 +37,7 @@
       given_q <= '0;
     end else begin
       if (push_i) pushed_q <= pushed_q + push_size;
-      if (complete_i) completed_q <= completed_q + step;
+      if (words.complete) completed_q <= completed_q + step;
       given_q <= given_next;
     end
   end
@@ -81,9 +81,9 @@
         seen_q <= 1'b1;
         live_q <= 1'b1;
         ptr_q <= pushed_q;
-        tag_kept_q <= {end_i, parts_come, slot_i, tile_x_i, tile_y_i};
-        last_row_kept_q <= last_row_i;
-        value_kept_q <= lin_value_i;
+        tag_kept_q <= {end_i, parts_come, tile.slot, tile.tile_x, tile.tile_y};
+        last_row_kept_q <= tile.last_row;
+        value_kept_q <= tile.lin_value;
       end else if (live_q && given_step > from_given) begin
         live_q <= 1'b0;
       end
@@ -103,9 +103,9 @@
   // Its words: what was written last of each function
   logic [RING:0] value_at, gradient_at, q_at;  // entries written, from the first that is not complete
 
-  assign value_at = {1'b0, RING'(value_entry_i - completed_q[RING-1:0])};
-  assign gradient_at = {1'b0, RING'(gradient_entry_i - completed_q[RING-1:0])};
-  assign q_at = {1'b0, RING'(q_entry_i - completed_q[RING-1:0])};
+  assign value_at = {1'b0, RING'(words.value_entry - completed_q[RING-1:0])};
+  assign gradient_at = {1'b0, RING'(words.gradient_entry - completed_q[RING-1:0])};
+  assign q_at = {1'b0, RING'(words.q_entry - completed_q[RING-1:0])};
 
   // What is written, stored and given out of the chosen function
   logic [QVAL-1:0] value_in, value_stored, value_out, value_word_q;
@@ -128,15 +128,15 @@
     {q_in, q_stored, q_out} = '0;
     for (int g = 0; g < 4; g++) begin
       if (which == 2'(g)) begin
-        value_in = value_i[(g%BUSES)*QVAL+:QVAL];
+        value_in = words.value[(g%BUSES)*QVAL+:QVAL];
         value_stored = values_stored[g*QVAL+:QVAL];
-        value_out = emit_quad_value_o[g*QVAL+:QVAL];
-        gradient_in = {gx_i[(g%BUSES)*QGRAD+:QGRAD], gy_i[(g%BUSES)*QGRAD+:QGRAD]};
+        value_out = emit_quad_value[g*QVAL+:QVAL];
+        gradient_in = {words.gx[(g%BUSES)*QGRAD+:QGRAD], words.gy[(g%BUSES)*QGRAD+:QGRAD]};
         gradient_stored = gradients_stored[g*2*QGRAD+:2*QGRAD];
-        gradient_out = {emit_quad_gx_o[g*QGRAD+:QGRAD], emit_quad_gy_o[g*QGRAD+:QGRAD]};
-        q_in = q_i[(g%PAIRS)*QCURV+:QCURV];
+        gradient_out = {emit_quad_gx[g*QGRAD+:QGRAD], emit_quad_gy[g*QGRAD+:QGRAD]};
+        q_in = words.q[(g%PAIRS)*QCURV+:QCURV];
         q_stored = qs_stored[g*QCURV+:QCURV];
-        q_out = emit_quad_q_o[g*QCURV+:QCURV];
+        q_out = emit_quad_q[g*QCURV+:QCURV];
       end
     end
   end
@@ -145,9 +145,9 @@
     if (!rst_ni) begin
       {value_known_q, gradient_known_q, q_known_q} <= '0;
     end else if (live_q) begin
-      if (value_write_i[which] && value_entry_i == word_place) {value_known_q, value_word_q} <= {1'b1, value_in};
-      if (gradient_write_i[which] && gradient_entry_i == word_place) {gradient_known_q, gradient_word_q} <= {1'b1, gradient_in};
-      if (q_write_i[which] && q_entry_i == word_place) {q_known_q, q_word_q} <= {1'b1, q_in};
+      if (words.value_write[which] && words.value_entry == word_place) {value_known_q, value_word_q} <= {1'b1, value_in};
+      if (words.gradient_write[which] && words.gradient_entry == word_place) {gradient_known_q, gradient_word_q} <= {1'b1, gradient_in};
+      if (words.q_write[which] && words.q_entry == word_place) {q_known_q, q_word_q} <= {1'b1, q_in};
     end
   end
 
@@ -167,25 +167,25 @@
   always_comb begin
     if (rst_ni) begin
       assume (!push_i || !full_o);
-      assume (!complete_i || to_complete >= step);
-      assume (!complete_i || !live_q || complete || (to_ptr == '0 ? step == size : step <= to_ptr));
+      assume (!words.complete || to_complete >= step);
+      assume (!words.complete || !live_q || complete || (to_ptr == '0 ? step == size : step <= to_ptr));
       assume (given_step <= complete_in_use);
       assume (!fetch_i || (RING + 1)'(fetch_ptr_i - given_q) < complete_in_use);
       assume (!load_i || (RING + 1)'(load_ptr_i - given_q) < complete_in_use);
       assume (!emit_valid_i || (RING + 1)'(emit_ptr_i - given_q) < complete_in_use);
-      assume (value_write_i == '0 || value_at < to_complete);
-      assume (gradient_write_i == '0 || gradient_at < to_complete);
-      assume (q_write_i == '0 || q_at < to_complete);
+      assume (words.value_write == '0 || value_at < to_complete);
+      assume (words.gradient_write == '0 || gradient_at < to_complete);
+      assume (words.q_write == '0 || q_at < to_complete);
       assert (stamp_present_o == (fetch_ptr_i != completed_q));
       assert (entry_o == pushed_q[RING-1:0]);
       assert (full_o == (occupied + push_size > (RING + 1)'(ENTRIES)));
       assert (!live_q || fetch_ptr_i != ptr_q || fetch_homogeneous_o == tag_kept_q[TAG-2]);
-      assert (!fetched_q || {stamp_end_o, stamp_homogeneous_o, stamp_slot_o, stamp_tile_x_o, stamp_tile_y_o} == tag_kept_q);
-      assert (!fetched_q || stamp_last_row_o == last_row_kept_q);
+      assert (!fetched_q || {stamp_end, stamp_homogeneous, stamp_slot, stamp_tile_x, stamp_tile_y} == tag_kept_q);
+      assert (!fetched_q || stamp_last_row == last_row_kept_q);
       assert (!loaded_q || stamp_lin_value_o == value_kept_q[5*VAL-1:0]);
       assert (!emit_q1 || tag_slot_o == tag_kept_q[2*TC+:SLOT]);
-      assert (!emit_q2 || {emit_slot_o, emit_tile_x_o, emit_tile_y_o} == tag_kept_q[TAG-3:0]);
-      assert (!emit_q2 || emit_lin_value_o == value_kept_q);
+      assert (!emit_q2 || {emit_slot, emit_tile_x, emit_tile_y} == tag_kept_q[TAG-3:0]);
+      assert (!emit_q2 || emit_lin_value == value_kept_q);
       // The registers are what the ports say.
       assert (write_q == pushed_q && complete_q == completed_q && tail_q == given_q);
       // Invariants. The next entry begins behind this one's last.

@@ -2,8 +2,8 @@
   // first vertex no attributes), and id, bases and corner codes of the first beat; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. flush_i discards
   // the beats of a quad that is not full, one that comes with it among them, and nothing of a full one. The judgements of a quad do not change while it is
   // held: so quad_setup, which is ready in a quad's third clock at the earliest, never starts one that is dropped, which leaves in its first. Of the
-  // beats so far: least and greatest X and Y are those of some vertex and none is beyond; ordinary_o if and only if every W is ONE; behind_o, a
-  // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty; depth_o and depth_limits_o: proof quad_reject; the interval:
+  // beats so far: least and greatest X and Y are those of some vertex and none is beyond; ordinary if and only if every W is ONE; behind_o, a
+  // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty; depth_o and limits_o: proof quad_reject; the interval:
   // proof depth_interval.)
   // By induction, with one vertex of the four chosen freely and kept.
   // Assumed: reset at the start and no more; start or drop only of a full quad (quadrille: start and drop_vertices have full in them); the draw state does
@@ -13,6 +13,10 @@
   always_comb assume (rst_ni == started_q);
 
   (* anyconst *) logic [1:0] which;
+  localparam int V = quadrille_pkg::VIEWPORT_BITS;
+  localparam int DB = quadrille_pkg::DEPTH_BITS;
+  localparam int CODE = quadrille_pkg::CORNER_DEPTH_BITS;
+  localparam int BASE = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_OUT_BITS;
   localparam int KEPT = 2 * T + W + 2 * (PE + S) + 1 + ATTR;
   localparam int OF_QUAD = quadrille_pkg::QUAD_ID_BITS + BASE + DB + 1 + 2 * CODE;
   logic [2:0] held_q, ones_q, positive_q;  // beats in; those of them whose W is ONE, is positive
@@ -33,7 +37,7 @@
   always_ff @(posedge clk_i) begin
     stays_q <= rst_ni && full_o && !(start_i || drop_i);
     judged_q <= {empty_o, behind_o, depth_o};
-    state_q <= {depth_on_i, znear_i, zfar_i, scissor_x0_i, scissor_y0_i, scissor_x1_i, scissor_y1_i};
+    state_q <= {state.depth, state.znear, state.zfar, state.scissor_x0, state.scissor_y0, state.scissor_x1, state.scissor_y1};
     if (!rst_ni) begin
       held_q <= '0;
     end else begin
@@ -63,9 +67,9 @@
     {w_neg_there, w_exp_there, w_sig_there} = '0;
     for (int v = 0; v < 4; v++) begin
       if (which == 2'(v)) begin
-        there = {x_o[v*T+:T], y_o[v*T+:T], w_o[v*W+:W], k_exp_o[v*PE+:PE], k_sig_o[v*S+:S], z_neg_o[v], z_exp_o[v*PE+:PE], z_sig_o[v*S+:S], ATTR'(0)};
-        if (v != 0) there[0+:ATTR] = attr_o[((v == 0) ? 0 : v - 1)*ATTR+:ATTR];
-        {w_neg_there, w_exp_there, w_sig_there} = {w_neg_o[v], w_exp_o[v*PE+:PE], w_sig_o[v*S+:S]};
+        there = {x[v*T+:T], y[v*T+:T], w[v*W+:W], k_exp[v*PE+:PE], k_sig[v*S+:S], z_neg[v], z_exp[v*PE+:PE], z_sig[v*S+:S], ATTR'(0)};
+        if (v != 0) there[0+:ATTR] = attr[((v == 0) ? 0 : v - 1)*ATTR+:ATTR];
+        {w_neg_there, w_exp_there, w_sig_there} = {w_negs[v], w_exps[v*PE+:PE], w_sigs[v*S+:S]};
       end
     end
     {w_exp_spec, w_sig_spec} = '0;
@@ -82,30 +86,30 @@
 
   always_comb begin
     for (int v = 0; v < 4; v++) begin
-      is_low_x[v] = held_q > 3'(v) && low_x_o == x_o[v*T+:T];
-      is_high_x[v] = held_q > 3'(v) && high_x_o == x_o[v*T+:T];
-      is_low_y[v] = held_q > 3'(v) && low_y_o == y_o[v*T+:T];
-      is_high_y[v] = held_q > 3'(v) && high_y_o == y_o[v*T+:T];
-      inside[v] = held_q <= 3'(v) || ($signed(low_x_o) <= $signed(x_o[v*T+:T]) && $signed(x_o[v*T+:T]) <= $signed(high_x_o) &&
-                                      $signed(low_y_o) <= $signed(y_o[v*T+:T]) && $signed(y_o[v*T+:T]) <= $signed(high_y_o));
+      is_low_x[v] = held_q > 3'(v) && low_x == x[v*T+:T];
+      is_high_x[v] = held_q > 3'(v) && high_x == x[v*T+:T];
+      is_low_y[v] = held_q > 3'(v) && low_y == y[v*T+:T];
+      is_high_y[v] = held_q > 3'(v) && high_y == y[v*T+:T];
+      inside[v] = held_q <= 3'(v) || ($signed(low_x) <= $signed(x[v*T+:T]) && $signed(x[v*T+:T]) <= $signed(high_x) &&
+                                      $signed(low_y) <= $signed(y[v*T+:T]) && $signed(y[v*T+:T]) <= $signed(high_y));
     end
   end
 
   always_comb begin
     if (rst_ni) begin
       assume (!(start_i || drop_i) || full_o);
-      assume ({depth_on_i, znear_i, zfar_i, scissor_x0_i, scissor_y0_i, scissor_x1_i, scissor_y1_i} == state_q);
+      assume ({state.depth, state.znear, state.zfar, state.scissor_x0, state.scissor_y0, state.scissor_x1, state.scissor_y1} == state_q);
       assert (held_q <= 3'd4);
       assert (full_o == (held_q == 3'd4));
       assert (busy_o == (held_q != 3'd0));
       assert (vertex_ready_o == (held_q != 3'd4 || start_i || drop_i));
       assert (!have || there == kept_q);
       assert (!have || {w_neg_there, w_exp_there, w_sig_there} == {kept_w[W-1], w_exp_spec, w_sig_spec});
-      assert (held_q == 3'd0 || {id_o, base_attr_o, base_depth_o, depth_low_q, depth_high_q} == of_quad_q);
+      assert (held_q == 3'd0 || {id, base_attr, base_depth, depth_low, depth_high} == of_quad_q);
       assert (held_q == 3'd0 || (is_low_x != '0 && is_high_x != '0 && is_low_y != '0 && is_high_y != '0));
       assert (inside == '1);
       assert (!stays_q || {empty_o, behind_o, depth_o} == judged_q);
-      assert (held_q == 3'd0 || ordinary_o == (ones_q == held_q));
+      assert (held_q == 3'd0 || ordinary == (ones_q == held_q));
       assert (held_q == 3'd0 || behind_o == (positive_q == 3'd0));
       // Invariants
       assert (count_q == held_q[1:0]);

@@ -127,6 +127,9 @@ class Build:
     def yosys(self, steps, log):
         """Verilog that Yosys writes of the device, in the build directory."""
         files = " ".join(f'"{path}"' for path in self.sources())
+        headers = os.path.join(self.options.rtl, "include")
+        for name in os.listdir(headers):  # Yosys takes no quotes around the folder of -I
+            shutil.copy(os.path.join(headers, name), self.directory)
         keys, bench, includes = self.defines()
         options = " ".join(["-DSYNTHESIS=1", *keys, *(define for define in bench if "_BITS=" in define), *(f'-I "{path[2:]}"' for path in includes)])
         script = f"read_verilog -sv {options} {files}\nhierarchy -check -top {self.device}\n{steps}\n"

@@ -1,3 +1,5 @@
+`include "quadrille_types.svh"
+
 // Suite `coverage`: one tile entry in, mask, front and tie of its rows out; rows that are not pushed count as zero. The stimulus stands
 // for ring and slots, which hold what they were read for while the entry is in work.
 module replay_coverage (
@@ -7,10 +9,13 @@ module replay_coverage (
   localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2;
   localparam int TILE = quadrille_pkg::TILE;
 
-  logic [quadrille_pkg::RING_LOG2:0] fetch_ptr, load_ptr, stamp_ptr;
-  logic fetch, load, push, push_end, push_homogeneous;
-  logic [TILE_LOG2-1:0] row;
-  logic [TILE-1:0] mask, front, tie;
+  logic [quadrille_pkg::RING_LOG2:0] fetch_ptr, load_ptr;
+  logic fetch, load, push;
+  logic [quadrille_pkg::STAMP_BITS-1:0] stamp_i;
+  `QUADRILLE_IN(`QUADRILLE_STAMP_T, stamp)
+  `QUADRILLE_STATE_T state;
+  `QUADRILLE_TAG_T tag;
+  `QUADRILLE_EDGES_T edges;
 
   // The slot's tie signs, from the gradients that the vector has.
   localparam int GRAD = quadrille_pkg::GRAD_BITS;
@@ -34,45 +39,49 @@ module replay_coverage (
   logic fetched_q;
   logic [TILE_LOG2+1:0] count_q;  // clocks since the fetch
 
-  logic count_masked, count_row, count_busy, count_behind;  // of performance_counters
+  logic [3:0] events;  // of performance_counters
+  logic [quadrille_pkg::ROWS_BITS-1:0] rows;  // of hidden tiles, which hide nothing here
 
-  // Of masked_depth, which hides nothing here.
-  logic rows_load, issue, rows_done;
-  logic [TILE_LOG2-1:0] issue_row;
-  logic [TILE-1:0] covered;
+  always_comb begin
+    state = '0;
+    state.cull = cull_i;
+    state.scissor_x0 = scissor_x0_i;
+    state.scissor_y0 = scissor_y0_i;
+    state.scissor_x1 = scissor_x1_i;
+    state.scissor_y1 = scissor_y1_i;
+    tag = '0;
+    tag.tile_x = tile_x_i;
+    tag.tile_y = tile_y_i;
+    tag.last_row = '1;
+    edges = '0;
+    edges.gx = lin_gx_i;
+    edges.gy = lin_gy_i;
+    edges.tie_pos = tie_pos_i;
+    edges.tie_neg = tie_neg_i;
+    edges.visible = visible_i;
+  end
 
   quadrille_stamp_coverage u_coverage (
-      .wait_i(1'b0),
-      .hidden_i(1'b0),
-      .rows_load_o(rows_load),
-      .issue_o(issue),
-      .rows_done_o(rows_done),
-      .issue_row_o(issue_row),
-      .covered_o(covered),
-      .seen_i({TILE{1'b1}}),
+      .clk_i,
+      .rst_ni,
+      .state_i(state),
       .present_i(valid_i && !fetched_q),
       .fetch_o(fetch),
       .fetch_ptr_o(fetch_ptr),
+      .fetch_homogeneous_i(1'b0),
+      .tag_i(tag),
       .load_o(load),
       .load_ptr_o(load_ptr),
-      .end_i(1'b0),
-      .fetch_homogeneous_i(1'b0),
-      .homogeneous_i(1'b0),
-      .last_row_i({TILE_LOG2{1'b1}}),
-      .homogeneous_o(push_homogeneous),
+      .lin_value_i,
+      .edges_i(edges),
+      .rows_o(rows),
+      .wait_i(1'b0),
+      .hidden_i(1'b0),
+      .seen_i({TILE{1'b1}}),
       .freed_i(push),
       .push_o(push),
-      .end_o(push_end),
-      .stamp_ptr_o(stamp_ptr),
-      .row_o(row),
-      .mask_o(mask),
-      .front_o(front),
-      .tie_o(tie),
-      .count_masked_o(count_masked),
-      .count_row_o(count_row),
-      .count_busy_o(count_busy),
-      .count_behind_o(count_behind),
-      .*
+      .stamp_o(stamp_i),
+      .events_o(events)
   );
 
   // The entry stays until the last of its rows has surely gone by: three registers, a clock a row, three registers.
@@ -93,10 +102,10 @@ module replay_coverage (
 
   for (genvar g = 0; g < TILE; g++) begin : gen_row
     always_ff @(posedge clk_i) begin
-      if (push && row == g) begin
-        mask_o[g*TILE+:TILE] <= mask;
-        front_o[g*TILE+:TILE] <= front;
-        tie_o[g*TILE+:TILE] <= tie;
+      if (push && stamp.row == g) begin
+        mask_o[g*TILE+:TILE] <= stamp.mask;
+        front_o[g*TILE+:TILE] <= stamp.front;
+        tie_o[g*TILE+:TILE] <= stamp.tie;
       end else if (fetch) begin
         mask_o[g*TILE+:TILE] <= '0;
         front_o[g*TILE+:TILE] <= '0;
@@ -106,6 +115,5 @@ module replay_coverage (
   end
 
   logic unused;
-  assign unused = ^{fetch_ptr, load, load_ptr, stamp_ptr, push_end, push_homogeneous, count_masked, count_row, count_busy, count_behind,
-      rows_load, issue, rows_done, issue_row, covered};
+  assign unused = ^{fetch_ptr, load, load_ptr, events, rows};
 endmodule

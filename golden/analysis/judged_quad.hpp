@@ -1,4 +1,4 @@
-// One quad with its truths, and how far the machine may be from them: the bounds of golden/analysis, and the pixels at
+// One quad with its truths, and how far the machine may be from them: the bounds of error_bound.hpp, and the pixels at
 // which the machine's result is exact by its specification (rtl/SPEC.md).
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace quadrille::tb {
+namespace quadrille {
 
 /// The arithmetic bound |error of a weight| <= 2^-(s-3) of a configuration, weights 1 to 3.
 double weight_bound(const Config& config);
@@ -41,26 +41,6 @@ FixedPoint depth_format(const Config& config);
 
 /// sig 2^exponent in units of 2^-frac_bits, to nearest, halves up; nothing where it is 2^int_bits or more.
 std::optional<std::int64_t> nearest_code(std::uint64_t sig, int exponent, int int_bits, int frac_bits);
-
-/// Which depth codes are drawn: near_code to far_code, both included.
-class DepthLimits {
- public:
-  DepthLimits(const Config& config, const DrawState& state);
-
-  bool holds(std::int64_t code) const { return code >= near_code_ && code <= far_code_; }
-  /// Every depth of the quad is drawn.
-  bool hold_all_of(const QuadBase& base) const { return base.depth_low >= near_code_ && base.depth_high <= far_code_; }
-  /// None is.
-  bool hold_none_of(const QuadBase& base) const { return base.depth_high < near_code_ || base.depth_low > far_code_; }
-  /// Some may and some may not be: where a pixel's depth is near a limit, either is right.
-  bool cut(const QuadBase& base) const { return !hold_all_of(base) && !hold_none_of(base); }
-  /// 1: a window z within `tolerance` of z is drawn; -1: is not; 0: may be either.
-  int side(double z, double tolerance) const;
-
- private:
-  std::int64_t near_code_, far_code_;
-  double lowest_, highest_;  ///< window z is drawn between them, and at them or not
-};
 
 /// The largest minus the least of a slot's differences at the corners; that of vertex 0 is 0, which is the base's too.
 double attribute_spread(const SnappedQuad& quad, std::size_t slot, const Config& config, bool perspective);
@@ -124,4 +104,4 @@ class JudgedQuad {
   std::array<double, max_attribute_slots> attribute_tolerance_{};
 };
 
-}  // namespace quadrille::tb
+}  // namespace quadrille

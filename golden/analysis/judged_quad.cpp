@@ -1,4 +1,4 @@
-#include "tb/judge/judged_quad.hpp"
+#include "golden/analysis/judged_quad.hpp"
 
 #include "golden/analysis/error_bound.hpp"
 #include "golden/reference/port_number.hpp"
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace quadrille::tb {
+namespace quadrille {
 
 using golden::port_value;
 
@@ -54,23 +54,6 @@ std::optional<std::int64_t> nearest_code(std::uint64_t sig, int exponent, int in
   if (shift >= 0) return static_cast<std::int64_t>(sig << shift);  // below the limit, so it fits
   if (shift < -63) return 0;
   return static_cast<std::int64_t>((sig >> -shift) + (sig >> (-shift - 1) & 1));
-}
-
-DepthLimits::DepthLimits(const Config& config, const DrawState& state) {
-  // Rounded to a code as the driver's contract says, halves up.
-  const auto code = [&](double z) {
-    return static_cast<std::int64_t>(std::floor(std::ldexp(std::clamp(z, 0.0, 1.0), config.depth_bits) + 0.5));
-  };
-  near_code_ = code(state.znear);
-  far_code_ = code(state.zfar);
-  const double unit = depth_format(config).unit();
-  lowest_ = (static_cast<double>(near_code_) - 0.5) * unit;
-  highest_ = (static_cast<double>(far_code_) + 0.5) * unit;
-}
-
-int DepthLimits::side(double z, double tolerance) const {
-  if (z + tolerance < lowest_ || z - tolerance > highest_) return -1;
-  return z - tolerance > lowest_ && z + tolerance < highest_ ? 1 : 0;
 }
 
 double attribute_spread(const SnappedQuad& quad, std::size_t slot, const Config& config, bool perspective) {
@@ -197,4 +180,4 @@ std::optional<std::int64_t> JudgedQuad::exact_depth(int corner) const {
                                   base.depth_high);
 }
 
-}  // namespace quadrille::tb
+}  // namespace quadrille

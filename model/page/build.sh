@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Builds the page: build.sh OUTPUT. The tools of PyPI and npm, and the module's own build, go into build/ of the tree.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+output=${1:?usage: build.sh OUTPUT}
+tools=$root/build/page-tools
+mkdir -p "$tools"
+
+# Python packages: the compiler.
+if ! "$tools/venv/bin/python" -c 'import ziglang' 2>/dev/null; then
+  python3 -m venv "$tools/venv"
+  "$tools/venv/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
+fi
+zig=$(echo "$tools"/venv/lib/python3*/site-packages/ziglang/zig)
+export ZIG_GLOBAL_CACHE_DIR=$tools/zig-cache ZIG_LOCAL_CACHE_DIR=$tools/zig-cache
+
+# npm packages, of the lock file alone.
+if ! cmp -s "$here/package-lock.json" "$tools/package-lock.json" || [ ! -d "$tools/node_modules/esbuild" ]; then
+  cp "$here/package.json" "$here/package-lock.json" "$tools/"
+  npm ci --prefix "$tools" --no-audit --no-fund --loglevel=error
+fi
+
+module=$root/build/page-wasm
+if [ ! -e "$module/build.ninja" ]; then
+  cmake -S "$root" -B "$module" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$here/wasi.cmake" -DZIG="$zig" -DCMAKE_BUILD_TYPE=Release \
+    -DQUADRILLE_BUILD_TOOLS=OFF -DQUADRILLE_BUILD_STUDIES=OFF -DQUADRILLE_BUILD_TESTS=OFF -DQUADRILLE_INSTALL=OFF -DQUADRILLE_WERROR=OFF \
+    -Wno-dev >"$tools/configure.log" 2>&1 || { cat "$tools/configure.log" >&2; exit 1; }
+fi
+cmake --build "$module" -j "$(nproc)" --target quadrille_page
+
+mkdir -p "$output"
+cp "$module/model/page/quadrille_page" "$output/quadrille.wasm"
+cp "$here/index.html" "$output/"
+"$tools/node_modules/.bin/esbuild" "$here/src/main.ts" --bundle --minify --format=esm --target=es2022 --outfile="$output/page.js" --log-level=warning
+"$tools/node_modules/.bin/esbuild" "$here/src/worker.ts" --bundle --minify --target=es2022 --outfile="$output/worker.js" --log-level=warning
+"$tools/node_modules/.bin/esbuild" "$here/src/page.css" --minify --outfile="$output/page.css" --log-level=warning

@@ -1,0 +1,79 @@
+// What stands beside the machine's picture.
+import { power_of_two } from "./controls";
+
+export const views: [string, string][] = [
+  ["", "nothing"],
+  ["error", "error against exact, by the bound"],
+  ["exact", "exact (113 bits)"],
+  ["split02", "two triangles, diagonal 0–2"],
+  ["split13", "two triangles, diagonal 1–3"],
+  ["bilinear", "inverse bilinear"],
+  ["projective", "projective"],
+  ["refine", "refined 20 × 20"],
+  ["twofold", "linear along edges, then along rows"],
+  ["adaptive", "adaptive subdivision"],
+  ["fp32", "paper's formulas in fp32"],
+  ["coverage", "coverage, ties and notches"],
+  ["clocks", "clock of each pixel"],
+  ["machine", "the machine, clock by clock"],
+];
+
+/** What the bound does not hold for it is said too. */
+export function legend(view: string, result: Record<string, unknown>): [string, string][] {
+  const count = (name: string) => (result[name] as number).toLocaleString("en");
+  switch (view) {
+    case "error": {
+      const worst = result.worst as number;
+      const limit = result.bound === null ? "no bound" : `bound ${power_of_two(result.bound as number)}`;
+      const where = worst > 0 ? ` (${worst.toFixed(3)} of it at pixel ${result.x}, ${result.y})` : "";
+      return [
+        ["scale", "2^−8 of the bound or less … the bound"],
+        ["", `${limit}; worst weight${where}`],
+      ];
+    }
+    case "coverage":
+      return [
+        ["#0072b2", `front ${count("front")}`],
+        ["#e69f00", `back ${count("back")}`],
+        ["#004a74", `notch (darker) ${count("notch")}`],
+        ["#cc79a7", `on an edge ${count("on_edge")}`],
+        ["#d55e00", `on a corner ${count("on_vertex")}`],
+        ["#ffffff", `decided as a tie ${count("ties")}`],
+      ];
+    case "clocks": {
+      const fragments = result.fragments as number, clocks = result.clocks as number;
+      return [
+        ["scale", `clock ${count("first")} … ${count("last")}`],
+        ["", `${count("clocks")} clocks for ${count("fragments")} fragments: ${(fragments / clocks).toFixed(3)} a clock`],
+      ];
+    }
+    default: {
+      const undefined_count = result.undefined as number;
+      return undefined_count > 0
+        ? [["#ff00ff", `the formulas divide by zero: ${undefined_count.toLocaleString("en")} pixels`]]
+        : [];
+    }
+  }
+}
+
+export function show_legend(box: HTMLElement, entries: [string, string][]) {
+  box.replaceChildren(
+    ...entries.flatMap(([colour, text]) => {
+      const swatch = document.createElement("span"), words = document.createElement("span");
+      swatch.className = colour === "scale" ? "swatch scale" : "swatch";
+      if (colour.startsWith("#")) swatch.style.background = colour;
+      words.textContent = text;
+      return colour ? [swatch, words] : [words];
+    }),
+  );
+}
+
+/** |a − b| of each channel, times `factor`. */
+export function difference(a: Uint8ClampedArray, b: Uint8ClampedArray, factor: number): Uint8ClampedArray {
+  const out = new Uint8ClampedArray(a.length);
+  for (let i = 0; i < a.length; i += 4) {
+    for (let c = 0; c < 3; c++) out[i + c] = Math.abs(a[i + c] - b[i + c]) * factor;
+    out[i + 3] = 255;
+  }
+  return out;
+}

@@ -1,0 +1,113 @@
+// Narrow and wide, dark and light: nothing overflows, everything has a name, and what is compared is drawn.
+import assert from "node:assert/strict";
+import { mkdir } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { launch, launch_watched, open, root, serve } from "./support.mjs";
+
+const shots = join(root, "build/page-shots");
+let server, browser;
+before(async () => {
+  server = await serve();
+  browser = await launch();
+  await mkdir(shots, { recursive: true });
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const all_settled = (page) => page.waitForFunction(() => window.quadrille.all_settled(), null, { timeout: 60000 });
+
+for (const width of [400, 1400])
+  for (const theme of ["light", "dark"])
+    test(`${width} pixels wide, ${theme}`, async () => {
+      const hash = `#scene=fig10_concave&theme=${theme}`;
+      const { page, problems, close } = await open(browser, server.address, hash, { viewport: { width, height: 900 } });
+      await all_settled(page);
+      await page.screenshot({ path: join(shots, `${width}_${theme}.png`), fullPage: true });
+      const overflow = await page.evaluate(() => {
+        const limit = document.documentElement.clientWidth;
+        return [...document.querySelectorAll("body *")]
+          .filter((e) => e.checkVisibility() && !e.closest("svg, .hidden") && e.getBoundingClientRect().right > limit + 0.5)
+          .map((e) => e.id || e.tagName);
+      });
+      assert.deepEqual(overflow, []);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
+      // Text against what is behind it, by WCAG's formula.
+      const contrast = await page.evaluate(() => {
+        const luminance = (colour) => {
+          const [r, g, b] = colour.match(/[\d.]+/g).map((c) => (c / 255 <= 0.03928 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+          return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        };
+        const behind = (e) => {
+          for (; e; e = e.parentElement) {
+            const colour = getComputedStyle(e).backgroundColor;
+            if (!/, 0\)$|transparent/.test(colour)) return colour;
+          }
+          return "rgb(255, 255, 255)";
+        };
+        return [...document.querySelectorAll("body *")]
+          .filter((e) => e.checkVisibility() && !e.closest("svg") && [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()))
+          .map((e) => {
+            const [a, b] = [luminance(getComputedStyle(e).color), luminance(behind(e))];
+            return [(Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), e.id || e.className || e.tagName];
+          })
+          .filter(([ratio]) => ratio < 4.5);
+      });
+      assert.deepEqual(contrast, []);
+      await close();
+      assert.deepEqual(problems, []);
+    });
+
+test("every control has a name", async () => {
+  const { page, close } = await open(browser, server.address);
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll("button, select, input, canvas, [role=button]")]
+      .filter((e) => !(e.ariaLabel || e.labels?.length || e.textContent.trim()))
+      .map((e) => e.id || e.tagName),
+  );
+  assert.deepEqual(nameless, []);
+  await close();
+});
+
+test("each comparison draws, within 2 seconds of a processor for one quad", async () => {
+  const watched = await launch_watched();
+  const { page, problems } = await open(watched.browser, server.address, "#scene=fig10_convex&view=");
+  const views = await page.$$eval("#view option", (options) => options.map((o) => o.value).filter((v) => v && v !== "machine"));
+  assert.ok(views.length >= 10);
+  for (const view of views) {
+    const before = await watched.worker_seconds();
+    const { error, ground } = await page.evaluate(async (name) => {
+      const answer = await window.quadrille.call("view", `scene=fig10_convex\nview=${name}`);
+      if (answer.error) return { error: answer.error };
+      const bytes = new Uint8Array(answer.bytes);
+      let ground = 0;
+      for (let p = 0; p < bytes.length; p += 4) ground += bytes[p] === 56 && bytes[p + 1] === 56 && bytes[p + 2] === 59;
+      return { ground };
+    }, view);
+    const seconds = (await watched.worker_seconds()) - before;
+    assert.equal(error, undefined, view);
+    const drawn = 512 * 512 - ground;
+    assert.ok(drawn > 90000 && drawn < 110000, `${view}: ${drawn} pixels`);
+    console.log(`${view}: ${seconds.toFixed(2)} s`);
+    assert.ok(seconds < 2, `${view}: ${seconds} s`);
+  }
+  await watched.close();
+  assert.deepEqual(problems, []);
+});
+
+test("the error stays within the bound, and shows more with fewer bits", async () => {
+  const { page, close } = await open(browser, server.address, "#scene=fig10_convex&view=");
+  const worst = (bits) =>
+    page.evaluate(async (s) => {
+      const { result } = await window.quadrille.call("view", `scene=fig10_concave\nsignificand_bits=${s}\nview=error`);
+      return { worst: result.worst, bound: result.bound };
+    }, bits);
+  for (const bits of [10, 18, 24]) {
+    const { worst: error, bound } = await worst(bits);
+    assert.ok(bound <= 2 ** -(bits - 3) && bound > 2 ** -(bits - 2), `${bits}: ${bound}`);
+    assert.ok(error > 2 ** -6 && error < 1, `${bits}: ${error}`);
+  }
+  await close();
+});

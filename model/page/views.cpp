@@ -1,0 +1,282 @@
+#include "model/page/views.hpp"
+
+#include "golden/analysis/error_bound.hpp"
+#include "golden/methods/method.hpp"
+#include "golden/reference/paper_float.hpp"
+#include "golden/reference/truth.hpp"
+#include "golden/scenes/shading.hpp"
+#include "model/drive.hpp"
+#include "model/page/json.hpp"
+#include "model/port/snap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille::page {
+namespace {
+
+using golden::Vec3;
+
+/// Colours whose order the eye reads without hue too: viridis at 0, 1/4, … 1.
+Vec3 scale_colour(double t) {
+  static constexpr std::array<Vec3, 5> stops{{{0.267, 0.005, 0.329},
+                                              {0.230, 0.322, 0.546},
+                                              {0.128, 0.567, 0.551},
+                                              {0.369, 0.789, 0.383},
+                                              {0.993, 0.906, 0.144}}};
+  const double at = std::clamp(t, 0.0, 1.0) * 4;
+  const auto i = std::min<std::size_t>(3, static_cast<std::size_t>(at));
+  const double rest = at - static_cast<double>(i);
+  Vec3 out{};
+  for (std::size_t c = 0; c < 3; ++c) out[c] = stops[i][c] + rest * (stops[i + 1][c] - stops[i][c]);
+  return out;
+}
+
+class Canvas {
+ public:
+  Canvas(int width, int height) : width_(width), rgba_(static_cast<std::size_t>(4 * width * height)) {
+    for (std::size_t p = 0; p < rgba_.size() / 4; ++p) put(p, golden::background_colour);
+  }
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width_ + x); }
+  void put(std::size_t pixel, const Vec3& colour) {
+    for (std::size_t c = 0; c < 3; ++c) rgba_[4 * pixel + c] = golden::to_byte(colour[c]);
+    rgba_[4 * pixel + 3] = 255;
+  }
+  std::vector<std::uint8_t> take() { return std::move(rgba_); }
+
+ private:
+  int width_;
+  std::vector<std::uint8_t> rgba_;
+};
+
+/// The nearest of weights in real numbers, as values of the shading.
+class RealPicture {
+ public:
+  explicit RealPicture(const Drawing& drawing)
+      : drawing_(drawing),
+        values_(values_of(drawing)),
+        image_(drawing.request.width, drawing.request.height, values_ == Values::weights ? 4 : drawing.attributes,
+               drawing.request.config, drawing.state.depth, true),
+        undefined_(static_cast<std::size_t>(drawing.request.width * drawing.request.height)) {}
+
+  void add(std::size_t quad, int x, int y, bool front, bool undefined, double z, const std::array<double, 4>& lambda) {
+    const DrawState& state = drawing_.state;
+    if (state.cull == (front ? Cull::front : Cull::back)) return;
+    if (!undefined && state.depth && !(z >= state.znear && z <= state.zfar)) return;
+    const auto pixel = static_cast<std::size_t>(y * image_.width() + x);
+    const bool drawn = image_.quads()[pixel] != DepthImage<double>::no_quad;
+    if (undefined ? drawn : state.depth && !(z < image_.depth()[pixel])) return;
+    std::array<double, max_attribute_slots> value{};
+    if (values_ == Values::weights)
+      std::copy_n(lambda.begin(), 4, value.begin());
+    else
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < static_cast<std::size_t>(drawing_.attributes); ++j)
+          value[j] += lambda[i] * drawing_.quads[quad].attribute[i][j];
+    image_.overwrite(pixel, undefined ? 1 : z, value, static_cast<std::uint32_t>(quad));
+    undefined_[pixel] = undefined;
+    fragments_ += 1;
+    undefined_count_ += undefined;
+  }
+
+  View view() const {
+    View out;
+    out.rgba = Shader(drawing_).shade(image_, values_);
+    for (std::size_t p = 0; p < undefined_.size(); ++p)
+      if (undefined_[p])
+        for (std::size_t c = 0; c < 3; ++c) out.rgba[4 * p + c] = golden::to_byte(golden::undefined_colour[c]);
+    out.json = Json().put("fragments", fragments_).put("undefined", undefined_count_).text();
+    return out;
+  }
+
+ private:
+  const Drawing& drawing_;
+  Values values_;
+  DepthImage<double> image_;
+  std::vector<std::uint8_t> undefined_;
+  std::size_t fragments_ = 0, undefined_count_ = 0;
+};
+
+/// A state without attributes, for quads of which weights alone are wanted.
+DrawState weights_state(const Drawing& drawing) {
+  DrawState state = drawing.state;
+  state.attributes = 0;
+  return state;
+}
+
+SnappedQuad snapped(const Drawing& drawing, std::size_t i, const DrawState& state) {
+  WindowQuad quad = drawing.quads[i];
+  quad.id = static_cast<std::uint32_t>(i);
+  return snap_quad(quad, drawing.request.config, state);
+}
+
+/// By a reference that says of each pixel what it is (truth, the paper's formulas): on the snapped quad.
+template <class Reference>
+View by_reference(const Drawing& drawing) {
+  RealPicture picture(drawing);
+  const DrawState state = weights_state(drawing);
+  for (std::size_t i = 0; i < drawing.quads.size(); ++i) {
+    const Reference reference(snapped(drawing, i, state), drawing.request.config, state);
+    const golden::CoverageRows& rows = reference.rows();
+    const golden::PixelRect box = rows.bounds();
+    for (int y = box.y0; y < box.y1; ++y)
+      for (int x = box.x0; x < box.x1; ++x) {
+        const golden::ReferenceSample s = reference.sample(x, y);
+        if (s.covered && s.visible) picture.add(i, x, y, s.front, s.undefined, s.z, s.lambda);
+      }
+  }
+  return picture.view();
+}
+
+View by_method(const Drawing& drawing, const std::string& spec) {
+  const auto method = golden::methods::make_method(spec);
+  RealPicture picture(drawing);
+  const golden::methods::View view{drawing.request.width, drawing.request.height, drawing.state.perspective};
+  std::vector<golden::methods::MethodSample> samples;
+  for (std::size_t i = 0; i < drawing.quads.size(); ++i) {
+    samples.clear();
+    method->draw({drawing.quads[i].vertex, drawing.corners[i], drawing.textures[i], drawing.quads[i].attribute}, view,
+                 samples);
+    for (const auto& s : samples) picture.add(i, s.x, s.y, s.front, s.undefined, s.z, s.lambda);
+  }
+  return picture.view();
+}
+
+/// Of each shown pixel the largest |error| of its weights 1 to 3 by their bound; log colours from 2^-8 of it on.
+View error_view(const Drawing& drawing) {
+  const Picture picture = draw_picture(drawing, Values::weights);
+  const DepthImage<double>& image = picture.image;
+  const ErrorBound bound = bound_lambda(drawing.request.config);
+  const DrawState state = weights_state(drawing);
+  std::vector<std::vector<golden::PixelPlace>> places(drawing.quads.size());
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      if (const std::uint32_t quad = image.quads()[static_cast<std::size_t>(y * image.width() + x)];
+          quad != DepthImage<double>::no_quad)
+        places[quad].push_back({x, y});
+  Canvas canvas(image.width(), image.height());
+  double worst = 0, worst_x = -1, worst_y = -1;
+  constexpr double darkest = -8;
+  std::vector<golden::ReferenceSample> samples;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].empty()) continue;
+    const golden::TruthQuad truth(snapped(drawing, i, state), drawing.request.config, state);
+    samples.assign(places[i].size(), {});
+    truth.samples(places[i], samples, lane_target());
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+      const auto [x, y] = places[i][n];
+      const std::size_t pixel = canvas.at(x, y);
+      double error = 0;
+      for (int k = 1; k < 4; ++k)
+        error = std::max(error, std::fabs(image.attribute(k)[pixel] - samples[n].lambda[static_cast<std::size_t>(k)]));
+      const double of_bound = error / bound.value;
+      canvas.put(pixel, scale_colour(of_bound > 0 ? 1 - std::log2(of_bound) / darkest : 0));
+      if (of_bound > worst) worst = of_bound, worst_x = x, worst_y = y;
+    }
+  }
+  return {canvas.take(), Json()
+                             .put("worst", worst)
+                             .put("bound", bound.value)
+                             .put("x", worst_x)
+                             .put("y", worst_y)
+                             .put("homogeneous", picture.stats.homogeneous_quads != 0)
+                             .text()};
+}
+
+/// Of the nearest fragment which face it is, and which rule decided; brighter where several fragments lie.
+View coverage_view(const Drawing& drawing) {
+  const Config& config = drawing.request.config;
+  const DrawState state = weights_state(drawing);
+  struct Pixel {
+    std::uint32_t depth = 0xffffffff;
+    int count = 0;
+    std::uint8_t flags = 0;
+    bool front = false;
+  };
+  const int width = drawing.request.width;
+  std::vector<Pixel> pixels(static_cast<std::size_t>(width * drawing.request.height));
+  UntimedModel model(config, state);
+  for (std::size_t i = 0; i < drawing.quads.size(); ++i)
+    model.draw_arrays(snapped(drawing, i, state), [&](const FragmentArrays& f) {
+      for (std::size_t n = 0; n < f.size; ++n) {
+        Pixel& pixel = pixels[static_cast<std::size_t>(f.place[n].y * width + f.place[n].x)];
+        ++pixel.count;
+        if (state.depth && f.depth[n] >= pixel.depth) continue;
+        pixel.depth = f.depth[n];
+        pixel.flags = f.marks[n].flags;
+        pixel.front = f.marks[n].front;
+      }
+    });
+  Canvas canvas(width, drawing.request.height);
+  std::array<std::size_t, 6> count{};
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    if (pixels[p].count == 0) continue;
+    const std::uint8_t flags = pixels[p].flags;
+    // Of Okabe and Ito's colours, which colour-blind people tell apart.
+    Vec3 colour = pixels[p].front ? Vec3{0.00, 0.45, 0.70} : Vec3{0.90, 0.62, 0.00};
+    ++count[pixels[p].front ? 0 : 1];
+    if (flags & flag_notch) colour = {colour[0] * 0.65, colour[1] * 0.65, colour[2] * 0.65}, ++count[2];
+    if (flags & (flag_on_edge | flag_two_edge)) colour = {0.80, 0.47, 0.65}, ++count[3];
+    if (flags & (flag_on_vertex | flag_two_corner)) colour = {0.84, 0.37, 0.00}, ++count[4];
+    if (flags & flag_tie) colour = {1, 1, 1}, ++count[5];
+    canvas.put(p, colour);
+  }
+  return {canvas.take(), Json()
+                             .put("front", count[0])
+                             .put("back", count[1])
+                             .put("notch", count[2])
+                             .put("on_edge", count[3])
+                             .put("on_vertex", count[4])
+                             .put("ties", count[5])
+                             .text()};
+}
+
+/// The clock in which each fragment leaves the clocked machine; with `tiles` which tile it was of, in their order.
+View clocks_view(const Drawing& drawing) {
+  const Config& config = drawing.request.config;
+  const DrawState state = weights_state(drawing);
+  std::vector<SnappedQuad> quads;
+  for (std::size_t i = 0; i < drawing.quads.size(); ++i) quads.push_back(snapped(drawing, i, state));
+  const int width = drawing.request.width;
+  std::vector<std::uint64_t> left(static_cast<std::size_t>(width * drawing.request.height));
+  DrivenModel machine(config, state);
+  machine.wait_idle();
+  SteadyBeats beats(quads);
+  std::uint64_t last = 0, fragments = 0, first = 0;
+  const std::uint64_t clocks = drive(machine, beats, [&](std::uint64_t cycle, const ClockedOutputs& outputs, bool) {
+    outputs.for_each_fragment([&](const Fragment& f) {
+      left[static_cast<std::size_t>(f.y * width + f.x)] = cycle + 1;
+      last = cycle + 1;
+      if (fragments++ == 0) first = last;
+    });
+    return !beats.done() || outputs.busy;
+  });
+  Canvas canvas(width, drawing.request.height);
+  const double span = static_cast<double>(std::max<std::uint64_t>(1, last - first));
+  for (std::size_t p = 0; p < left.size(); ++p)
+    if (left[p] != 0) canvas.put(p, scale_colour(static_cast<double>(left[p] - first) / span));
+  Json counters;
+  const PerformanceCounters counted = machine.counters();
+  for (std::size_t i = 0; i < counter_count; ++i) counters.put(counter_info[i].name, counted.value[i]);
+  return {canvas.take(), Json()
+                             .put("clocks", clocks)
+                             .put("first", first)
+                             .put("last", last)
+                             .put("fragments", fragments)
+                             .raw("counters", counters.text())
+                             .text()};
+}
+
+}  // namespace
+
+View draw_view(const Drawing& drawing) {
+  const std::string& view = drawing.request.view;
+  if (view == "exact") return by_reference<golden::TruthQuad>(drawing);
+  if (view == "fp32") return by_reference<golden::PaperFp32Quad>(drawing);
+  if (view == "error") return error_view(drawing);
+  if (view == "coverage") return coverage_view(drawing);
+  if (view == "clocks") return clocks_view(drawing);
+  return by_method(drawing, view);
+}
+
+}  // namespace quadrille::page

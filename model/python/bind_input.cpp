@@ -1,0 +1,343 @@
+// Quads: from arrays, scenes, stress families, corner groups, and meshes with a camera.
+#include "golden/io/camera.hpp"
+#include "golden/io/obj.hpp"
+#include "golden/io/quads_file.hpp"
+#include "golden/methods/method.hpp"
+#include "golden/scenes/corner_quads.hpp"
+#include "golden/scenes/projection.hpp"
+#include "golden/scenes/scenes.hpp"
+#include "golden/scenes/stress.hpp"
+#include "model/python/binding.hpp"
+#include "tb/support/choices.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+namespace quadrille::python {
+namespace {
+
+using namespace nb::literals;
+using golden::AttributeSet;
+using Doubles = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+using Ids = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+AttributeSet attribute_set(const std::string& name) {
+  return static_cast<AttributeSet>(
+      tb::choose("attributes", name, {"none", "uv", "normal", "weights", "uv_normal", "position", "colour"}));
+}
+
+std::vector<std::string> names_of(AttributeSet set) {
+  const auto names = golden::attribute_names(set);
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> numbered(std::size_t count) {
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < count; ++j) names.push_back("a" + std::to_string(j));
+  return names;
+}
+
+/// Field names of a record must differ.
+void check_names(const std::vector<std::string>& names) {
+  std::set<std::string> taken{"quad", "x", "y", "front", "flags", "depth", "depth_code", "l0", "l1", "l2", "l3"};
+  for (const std::string& name : names)
+    if (name.empty() || !taken.insert(name).second || !taken.insert(name + "_code").second)
+      throw std::invalid_argument("attribute name \"" + name +
+                                  "\" is empty or taken: names must differ from each other and from " +
+                                  "quad, x, y, front, flags, depth and l0 to l3");
+}
+
+Quads from_arrays(const Doubles& vertices, const Doubles& values, std::vector<std::string> names,
+                  const std::optional<Ids>& ids) {
+  const std::size_t count = vertices.shape(0), attributes = values.shape(2);
+  if (attributes > max_attribute_slots)
+    throw std::invalid_argument(std::to_string(attributes) + " attributes; at most " +
+                                std::to_string(max_attribute_slots));
+  check_names(names);
+  Quads result;
+  result.name = "arrays";
+  result.attributes = std::move(names);
+  result.quads.resize(count);
+  const double* v = vertices.data();
+  const double* a = values.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    WindowQuad& quad = result.quads[i];
+    quad.id = ids ? ids->data()[i] : static_cast<std::uint32_t>(i);
+    for (std::size_t corner = 0; corner < 4; ++corner, v += 4, a += attributes) {
+      quad.vertex[corner] = {v[0], v[1], v[2], v[3]};
+      quad.attribute[corner].assign(a, a + attributes);
+    }
+  }
+  return result;
+}
+
+/// What a projection gives.
+Quads projected(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, AttributeSet set,
+                bool strict, std::string name) {
+  golden::ProjectOptions options;
+  options.attributes = set;
+  options.strict = strict;
+  golden::Projection projection = golden::project_mesh(mesh, camera, width, height, options);
+  Quads result;
+  result.name = std::move(name);
+  result.quads = std::move(projection.quads);
+  result.attributes = names_of(set);
+  result.corners = std::move(projection.corners);
+  result.textures = std::move(projection.textures);
+  result.width = width;
+  result.height = height;
+  result.notes = mesh.notes;
+  return result;
+}
+
+Quads scene(const std::string& name, int width, int height, const std::string& attributes) {
+  const golden::Scene made = golden::make_scene(name);
+  Quads result = projected(made.mesh, made.camera, width, height, attribute_set(attributes), false, made.name);
+  result.perspective = made.perspective;
+  result.cull = made.cull;
+  return result;
+}
+
+Quads stress(const std::string& family, std::size_t count, std::uint64_t seed, int width, int height, int attributes) {
+  Quads result;
+  result.name = family;
+  result.quads =
+      golden::make_stress_without_weights(golden::parse_stress_family(family), count, seed, width, height, attributes);
+  result.attributes = numbered(static_cast<std::size_t>(attributes));
+  result.width = width;
+  result.height = height;
+  return result;
+}
+
+Quads corner(const std::string& group, const Config& config, const DrawState& state, std::uint64_t seed,
+             int attributes) {
+  Quads result;
+  result.name = group;
+  result.quads = golden::make_corner(golden::parse_corner_group(group), config, state, seed, attributes);
+  result.attributes = numbered(static_cast<std::size_t>(attributes));
+  result.width = state.width;
+  result.height = state.height;
+  return result;
+}
+
+Quads load_quads(const std::filesystem::path& path) {
+  Quads result;
+  result.name = path.filename().string();
+  result.quads = golden::load_quads(path.string());
+  result.attributes = numbered(result.quads.front().attribute[0].size());
+  return result;
+}
+
+Quads picked(const Quads& quads, const std::vector<std::size_t>& positions) {
+  Quads result = quads;
+  const auto pick = [&](auto& list) {
+    if (list.empty()) return;
+    auto all = std::move(list);
+    list.clear();
+    for (const std::size_t i : positions) list.push_back(all[i]);
+  };
+  pick(result.quads);
+  pick(result.corners);
+  pick(result.textures);
+  return result;
+}
+
+// ---- Arrays ----
+
+using View = nb::ndarray<nb::numpy, const double>;
+
+/// Without a copy: the vertices lie in the quads, which the array keeps.
+View vertices_of(nb::handle self) {
+  const auto& quads = nb::cast<const Quads&>(self).quads;
+  static_assert(sizeof(WindowQuad) % sizeof(double) == 0);
+  constexpr std::int64_t between = sizeof(WindowQuad) / sizeof(double);
+  const double* const first = quads.empty() ? nullptr : &quads.front().vertex[0].x;
+  return View(first, {quads.size(), 4, 4}, self, {between, 4, 1});
+}
+
+template <class Values>
+View copied(Values&& values, std::initializer_list<std::size_t> shape) {
+  auto* const memory = new std::vector<double>(std::forward<Values>(values));
+  const nb::capsule owner(memory, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+  return View(memory->data(), shape, owner);
+}
+
+View values_of(const Quads& self) {
+  std::vector<double> values;
+  for (const WindowQuad& quad : self.quads)
+    for (const std::vector<double>& corner : quad.attribute) values.insert(values.end(), corner.begin(), corner.end());
+  return copied(std::move(values), {self.quads.size(), 4, self.attributes.size()});
+}
+
+nb::ndarray<nb::numpy, const std::uint32_t> ids_of(const Quads& self) {
+  auto* const ids = new std::vector<std::uint32_t>;
+  const nb::capsule owner(ids, [](void* p) noexcept { delete static_cast<std::vector<std::uint32_t>*>(p); });
+  for (const WindowQuad& quad : self.quads) ids->push_back(quad.id);
+  return {ids->data(), {ids->size()}, owner};
+}
+
+template <std::size_t n>
+View corners_of(const std::vector<std::array<std::array<double, n>, 4>>& list) {
+  std::vector<double> values;
+  for (const auto& corners : list)
+    for (const auto& corner : corners) values.insert(values.end(), corner.begin(), corner.end());
+  return copied(std::move(values), {list.size(), 4, n});
+}
+
+template <std::size_t n>
+View points_of(const std::vector<std::array<double, n>>& list) {
+  std::vector<double> values;
+  for (const auto& point : list) values.insert(values.end(), point.begin(), point.end());
+  return copied(std::move(values), {list.size(), n});
+}
+
+nb::list listed(const std::vector<golden::SceneInfo>& scenes) {
+  nb::list result;
+  for (const golden::SceneInfo& info : scenes) {
+    nb::dict entry;
+    entry["name"] = info.name;
+    entry["title"] = info.title;
+    entry["paper"] = info.paper;
+    entry["quads"] = info.quads;
+    result.append(entry);
+  }
+  return result;
+}
+
+template <class List, class Entry>
+nb::dict described(const List& list, Entry&& entry) {
+  nb::dict result;
+  for (const auto& one : list) result[std::string(one.name).c_str()] = std::string(entry(one));
+  return result;
+}
+
+void bind_quads(nb::module_& m) {
+  nb::class_<Quads>(m, "Quads",
+                    "Quads of a draw in window coordinates: pixels, y down, pixel centres at +0.5, times w; window z "
+                    "in [0, 1] times w.")
+      .def("__len__", [](const Quads& self) { return self.quads.size(); })
+      .def("pick", picked, "positions"_a, "The quads at these positions; `quadrille.pick()` takes slices too.")
+      .def_ro("name", &Quads::name, "Of the scene, file or family.")
+      .def_ro("names", &Quads::attributes, "Names of the attributes.")
+      .def_ro("notes", &Quads::notes, "What the reader of a file found that its user should know.")
+      .def_prop_ro("vertices", vertices_of, nb::rv_policy::automatic, nb::sig("def vertices(self) -> numpy.ndarray"),
+                   "(n, 4, 4) float64, read-only, no copy: x̃, ỹ, z̃, w of each corner.")
+      .def_prop_ro("attributes", values_of, nb::rv_policy::automatic, nb::sig("def attributes(self) -> numpy.ndarray"),
+                   "(n, 4, a) float64, a copy: each corner's values.")
+      .def_prop_ro("ids", ids_of, nb::rv_policy::automatic, nb::sig("def ids(self) -> numpy.ndarray"),
+                   "(n,) uint32: what fragments call their quad.")
+      .def_prop_ro(
+          "corners", [](const Quads& self) { return corners_of(self.corners); }, nb::rv_policy::automatic,
+          nb::sig("def corners(self) -> numpy.ndarray"),
+          "(n, 4, 3) float64: corners in the mesh's space; (0, 4, 3) of arrays.")
+      .def_prop_ro(
+          "size",
+          [](const Quads& self) {
+            return self.width == 0 ? nb::object(nb::none()) : nb::object(nb::make_tuple(self.width, self.height));
+          },
+          nb::sig("def size(self) -> tuple[int, int] | None"), "Viewport that they were made for, in pixels.")
+      .def_ro("perspective", &Quads::perspective, "As the scene wants it.")
+      .def_prop_ro(
+          "cull",
+          [](const Quads& self) {
+            return std::array{"none", "front", "back"}[static_cast<std::size_t>(self.cull)];
+          },
+          "As the scene wants it: none, front, back.");
+  m.def("from_arrays", from_arrays, "vertices"_a, "values"_a, "names"_a, "ids"_a.none());
+}
+
+void bind_meshes(nb::module_& m) {
+  nb::class_<golden::Camera>(
+      m, "Camera",
+      "A camera: eye, target, up (mesh's space), fovy (degrees), near, far (distances); or a matrix of 16 numbers, "
+      "row-major,\nclip = M·(x, y, z, 1), y up, z −1 to 1.")
+      .def(
+          "__init__",
+          [](golden::Camera* self, const golden::Vec3& eye, const golden::Vec3& target, const golden::Vec3& up,
+             double fovy, double near, double far, const std::optional<golden::Matrix4>& matrix) {
+            new (self) golden::Camera{matrix, eye, target, up, fovy, near, far};
+          },
+          "eye"_a = golden::Vec3{0, 0, 1}, "target"_a = golden::Vec3{}, "up"_a = golden::Vec3{0, 1, 0}, "fovy"_a = 45.0,
+          "near"_a = 0.1, "far"_a = 100.0, "matrix"_a.none() = nb::none())
+      .def_static(
+          "load", [](const std::filesystem::path& path) { return golden::load_camera(path.string()); }, "path"_a,
+          "Of a JSON file. Raises InputError with file, line and field.")
+      .def("text", golden::camera_text, "The camera as such a file's text.")
+      .def_ro("eye", &golden::Camera::eye)
+      .def_ro("target", &golden::Camera::target)
+      .def_ro("up", &golden::Camera::up)
+      .def_ro("fovy", &golden::Camera::fovy)
+      .def_ro("near", &golden::Camera::near)
+      .def_ro("far", &golden::Camera::far)
+      .def("__repr__", [](const golden::Camera& self) { return "Camera(" + golden::camera_text(self) + ")"; });
+  nb::class_<golden::Mesh>(m, "Mesh", "A polygon mesh as an OBJ file has it.")
+      .def_static(
+          "load", [](const std::filesystem::path& path) { return golden::load_obj(path.string()); }, "path"_a,
+          "Of an OBJ file: v, vt, vn, f. Raises InputError with file and line.")
+      .def_static(
+          "parse", [](const std::string& text, const std::string& name) { return golden::parse_obj(text, name); },
+          "text"_a, "name"_a = "text", "Of an OBJ file's text; `name` stands for the file in messages.")
+      .def_prop_ro(
+          "positions", [](const golden::Mesh& self) { return points_of(self.positions); }, nb::rv_policy::automatic,
+          nb::sig("def positions(self) -> numpy.ndarray"), "(n, 3) float64.")
+      .def_prop_ro(
+          "faces",
+          [](const golden::Mesh& self) {
+            nb::list faces;
+            for (const golden::Face& face : self.faces) {
+              nb::list corners;
+              for (const golden::Corner& corner : face) corners.append(corner.position);
+              faces.append(nb::tuple(corners));
+            }
+            return faces;
+          },
+          nb::sig("def faces(self) -> list[tuple[int, ...]]"), "Of each face the positions of its corners.")
+      .def_ro("notes", &golden::Mesh::notes, "What the reader found that its user should know.")
+      .def_ro("skipped_lines", &golden::Mesh::skipped_lines, "Lines that were valid and not used.");
+  m.def(
+      "frame_mesh",
+      [](const golden::Mesh& mesh, int width, int height, const golden::Vec3& up,
+         const std::optional<golden::Vec3>& from) {
+        return golden::frame_mesh(mesh, width, height, {up, from});
+      },
+      "mesh"_a, "width"_a, "height"_a, "up"_a, "view_from"_a.none());
+  m.def(
+      "project",
+      [](const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, const std::string& attributes,
+         bool strict) { return projected(mesh, camera, width, height, attribute_set(attributes), strict, "mesh"); },
+      "mesh"_a, "camera"_a, "width"_a, "height"_a, "attributes"_a, "strict"_a);
+}
+
+}  // namespace
+
+void bind_input(nb::module_& m) {
+  bind_quads(m);
+  bind_meshes(m);
+  m.def("scene", scene, "name"_a, "width"_a, "height"_a, "attributes"_a);
+  m.def("list_scenes", [] { return listed(golden::list_scenes()); });
+  m.def("list_workloads", [] { return listed(golden::list_workloads()); });
+  m.def("stress", stress, "family"_a, "count"_a, "seed"_a, "width"_a, "height"_a, "attributes"_a);
+  m.def("list_stress",
+        [] { return described(golden::stress_families(), [](const auto& info) { return info.stresses; }); });
+  m.def("corner", corner, "group"_a, "config"_a, "state"_a, "seed"_a, "attributes"_a);
+  m.def("list_corners", [] { return described(golden::corner_groups(), [](const auto& info) { return info.holds; }); });
+  m.def("load_quads", load_quads, "path"_a);
+  m.def(
+      "save_quads",
+      [](const std::filesystem::path& path, const Quads& quads) { golden::save_quads(path.string(), quads.quads); },
+      "path"_a, "quads"_a);
+  m.def("list_methods",
+        [] { return described(golden::methods::list_methods(), [](const auto& info) { return info.what; }); });
+}
+
+}  // namespace quadrille::python

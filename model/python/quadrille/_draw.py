@@ -1,0 +1,238 @@
+"""Draws and snapping."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, TypedDict
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._core import Config, Quads
+from ._inputs import QuadsLike, as_quads
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+
+class DrawState(TypedDict, total=False):
+    """What stays constant over a draw, as keyword arguments of every function that draws.
+
+    size: viewport; default that of the quads, else 512 × 512, or what the configuration has.
+    scissor: x0, y0, x1, y1, half-open, inside the viewport. cull: none, front, back. perspective: attributes are
+    perspective-correct. depth: window z is computed and clipped to [znear, zfar]. skip: names of work to leave out
+    (tiles, quads, hidden, walk, operands, plane), default what keeps every fragment.
+    """
+
+    size: tuple[int, int]
+    scissor: tuple[int, int, int, int]
+    cull: str
+    perspective: bool
+    depth: bool
+    znear: float
+    zfar: float
+    skip: Iterable[str]
+
+
+def make_state(
+    config: Config,
+    size: tuple[int, int] | None,
+    *,
+    scissor: tuple[int, int, int, int] | None = None,
+    cull: str = "none",
+    perspective: bool = True,
+    depth: bool = True,
+    znear: float = 0.0,
+    zfar: float = 1.0,
+    skip: Iterable[str] | None = None,
+) -> _core.DrawState:
+    if size is None:
+        size = (min(512, 2**config.viewport_bits),) * 2
+    return _core.make_state(
+        config, *size, scissor, cull, perspective, depth, znear, zfar, None if skip is None else list(skip)
+    )
+
+
+def state_of(quads: Quads, config: Config, state: DrawState) -> _core.DrawState:
+    """Where nothing else is asked for, what the quads were made for."""
+    if quads.size is not None:
+        state = {"size": quads.size, **state}
+    if not quads.perspective:
+        state = {**state, "perspective": False}
+    if quads.cull != "none" and state.get("cull", "none") == "none":
+        state = {**state, "cull": quads.cull}
+    options: dict[str, Any] = dict(state)
+    return make_state(config, options.pop("size", None), **options)
+
+
+def thread_count(threads: int | None) -> int:
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: {threads}; a number from 1 on, or None for all processors")
+    return threads or len(os.sched_getaffinity(0))
+
+
+def as_array(made: tuple[Any, list[tuple[str, str, int]], int]) -> npt.NDArray[np.void]:
+    """The structured array of bytes from the module; no copy."""
+    raw, fields, itemsize = made
+    names, formats, offsets = (list(column) for column in zip(*fields))
+    return raw.view(np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": itemsize}))
+
+
+def _drawn(
+    quads: QuadsLike,
+    attributes: npt.ArrayLike | None,
+    config: Config | None,
+    engine: str,
+    method_name: str,
+    snapped: bool,
+    weights: bool,
+    names: Sequence[str] | None,
+    threads: int | None,
+    state: DrawState,
+) -> npt.NDArray[np.void]:
+    config = config or Config()
+    given = as_quads(quads, attributes, names=names)
+    return as_array(
+        _core.draw(
+            given, config, state_of(given, config, state), engine, method_name, snapped, weights, thread_count(threads)
+        )
+    )
+
+
+def draw(
+    quads: QuadsLike,
+    attributes: npt.ArrayLike | None = None,
+    *,
+    config: Config | None = None,
+    weights: bool = False,
+    names: Sequence[str] | None = None,
+    threads: int | None = None,
+    **state: Unpack[DrawState],
+) -> npt.NDArray[np.void]:
+    """Draws quads with the untimed model: the bits of the RTL. Without depth test: every fragment, in the machine's order.
+
+    quads, attributes, names: as of `as_quads()`. weights: the mean value weights l0 to l3, too. threads: default all
+    processors; the result is the same. The other keywords are those of `DrawState`.
+
+    Returns a structured array of n fragments with the fields
+      quad     uint32   id
+      x, y     uint16   pixel
+      front    bool     counter-clockwise as seen on the screen
+      flags    uint16   sum of 1 on an edge, 2 on a vertex, 4 on two corners, 8 on two edges, 16 tie, 32 homogeneous,
+                        64 notch, 128 saturated
+      depth    float64  window z in [0, 1]; not with depth=False
+      u, v, …  float64  the attributes by their names
+      depth_code, u_code, …  the integers that these are, in units of 2^−depth_bits and 2^−attribute_frac_bits
+
+    The lock of the interpreter is released. Raises SnapError for a quad that cannot be drawn.
+    """
+    return _drawn(quads, attributes, config, "model", "", True, weights, names, threads, state)
+
+
+def truth(
+    quads: QuadsLike,
+    attributes: npt.ArrayLike | None = None,
+    *,
+    config: Config | None = None,
+    snapped: bool = True,
+    weights: bool = True,
+    names: Sequence[str] | None = None,
+    threads: int | None = None,
+    **state: Unpack[DrawState],
+) -> npt.NDArray[np.void]:
+    """The same by exact arithmetic (113 bits, rounded to double), on the quads as the machine snaps them, or as given.
+
+    Fields as of `draw()`, without codes; a quad's fragments by y, then x. The machine's values differ by at most
+    `Config.bounds()`; visibility of a quad with the eye in its hull may differ.
+    """
+    return _drawn(quads, attributes, config, "truth", "", snapped, weights, names, threads, state)
+
+
+def paper(
+    quads: QuadsLike,
+    attributes: npt.ArrayLike | None = None,
+    *,
+    config: Config | None = None,
+    single: bool = False,
+    snapped: bool = True,
+    weights: bool = True,
+    names: Sequence[str] | None = None,
+    threads: int | None = None,
+    **state: Unpack[DrawState],
+) -> npt.NDArray[np.void]:
+    """The same by the paper's formulas as printed, in double or single precision. Flag 256: divided by 0; the numbers
+    are invalid."""
+    return _drawn(
+        quads, attributes, config, "fp32" if single else "float", "", snapped, weights, names, threads, state
+    )
+
+
+def method(
+    name: str,
+    quads: QuadsLike,
+    attributes: npt.ArrayLike | None = None,
+    *,
+    names: Sequence[str] | None = None,
+    weights: bool = True,
+    threads: int | None = None,
+    **state: Unpack[DrawState],
+) -> npt.NDArray[np.void]:
+    """The same by one of the papers' methods (`methods()`), such as split02 (two triangles) or refine:20, on the quads
+    as given. Flag 256: the method has no number for the pixel."""
+    return _drawn(quads, attributes, None, "truth", name, False, weights, names, threads, state)
+
+
+def fragment_names(fragments: npt.NDArray[np.void]) -> list[str]:
+    """Names of the attributes of fragments."""
+    known = {"quad", "x", "y", "front", "flags", "depth", "l0", "l1", "l2", "l3"}
+    return [name for name in fragments.dtype.names or () if name not in known and not name.endswith("_code")]
+
+
+def picture(
+    fragments: npt.NDArray[np.void],
+    fields: str | Sequence[str],
+    size: tuple[int, int] = (512, 512),
+    *,
+    background: float = np.nan,
+) -> npt.NDArray[np.float64]:
+    """Fields of the nearest fragment of each pixel: (height, width), or (height, width, n) of several fields.
+
+    Depth test LESS: of equal depths, and without depth, the first fragment stays.
+    """
+    width, height = size
+    position = np.arange(len(fragments))
+    depth = fragments["depth"] if "depth" in (fragments.dtype.names or ()) else np.zeros(len(fragments))
+    order = np.lexsort((position, depth))[::-1]  # farthest first: what is written last stays
+    several = [fields] if isinstance(fields, str) else list(fields)
+    image = np.full((height, width, len(several)), background)
+    for i, field in enumerate(several):
+        image[fragments["y"][order], fragments["x"][order], i] = fragments[field][order]
+    return image[:, :, 0] if isinstance(fields, str) else image
+
+
+def snap(
+    quads: QuadsLike,
+    attributes: npt.ArrayLike | None = None,
+    *,
+    config: Config | None = None,
+    names: Sequence[str] | None = None,
+    **state: Unpack[DrawState],
+) -> npt.NDArray[np.void]:
+    """The integers of the machine's port: a structured array of n quads, no copy.
+
+    id; base_attribute (a,), base_depth: codes that differences are counted from; depth_low, depth_high: codes of the
+    corners' depths; vertex (4,) with x, y, w in units of 2^−(subpixel_bits + homogeneous_frac_bits) relative to pixel
+    centres, and the numbers k, z, attribute (a,) of neg, exp, sig: `port_value()`. Raises SnapError.
+    """
+    config = config or Config()
+    given = as_quads(quads, attributes, names=names)
+    raw, dtype = _core.snap(given, config, state_of(given, config, state))
+    return raw.view(np.dtype(dtype))
+
+
+def port_value(number: npt.NDArray[np.void], config: Config | None = None) -> npt.NDArray[np.float64]:
+    """The value of numbers at the port: (−1)^neg · sig · 2^(exp − (significand_bits − 1))."""
+    bits = (config or Config()).significand_bits
+    return np.ldexp(np.where(number["neg"], -1.0, 1.0) * number["sig"], number["exp"] - (bits - 1))

@@ -1,0 +1,177 @@
+"""Quads: from arrays, scenes, families, files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._core import Camera, Config, Mesh, Quads
+
+QuadsLike = Union[Quads, npt.ArrayLike]
+StrPath = Union[str, "os.PathLike[str]"]
+#: Sides of a mesh from which an automatic camera looks; z up where `up` says so.
+Direction = Sequence[float]
+
+
+def as_quads(
+    quads: QuadsLike,
+    attributes: npt.ArrayLike | None = None,
+    *,
+    names: Sequence[str] | None = None,
+    ids: npt.ArrayLike | None = None,
+) -> Quads:
+    """Quads of arrays. A `Quads` without attributes given is returned as it is.
+
+    quads: (n, 4, 4) x̃, ỹ, z̃, w of each corner; or (n, 4, 2) x, y and (n, 4, 3) x, y, z with w = 1.
+    attributes: (n, 4, a), or (n, 4) for one; a ≤ 8. names: of the attributes, default a0, a1, …
+    ids: (n,) whole numbers that fragments carry, default 0 to n − 1.
+    """
+    if isinstance(quads, Quads):
+        if attributes is None and names is None and ids is None:
+            return quads
+        if attributes is None:
+            attributes = quads.attributes
+            names = names if names is not None else quads.names
+        ids = quads.ids if ids is None else ids
+        quads = quads.vertices
+    vertices = np.asarray(quads, dtype=np.float64)
+    if vertices.ndim == 2:
+        vertices = vertices[np.newaxis]
+        attributes = None if attributes is None else np.asarray(attributes, dtype=np.float64)[np.newaxis]
+    if vertices.ndim != 3 or vertices.shape[1] != 4 or vertices.shape[2] not in (2, 3, 4):
+        raise ValueError(
+            f"quads: shape {vertices.shape}; (n, 4, 4) of x̃, ỹ, z̃, w is expected, or (n, 4, 2) or (n, 4, 3) with w = 1"
+        )
+    count, given = len(vertices), vertices.shape[2]
+    if given < 4:
+        full = np.zeros((count, 4, 4))
+        full[:, :, :given] = vertices
+        full[:, :, 3] = 1
+        vertices = full
+    values = np.zeros((count, 4, 0)) if attributes is None else np.asarray(attributes, dtype=np.float64)
+    if values.shape == (count, 4):
+        values = values[:, :, np.newaxis]
+    if values.ndim != 3 or values.shape[:2] != (count, 4):
+        raise ValueError(f"attributes: shape {values.shape}; ({count}, 4, a) is expected, a value of each corner")
+    names = [f"a{i}" for i in range(values.shape[2])] if names is None else list(names)
+    if len(names) != values.shape[2]:
+        raise ValueError(f"names: {len(names)} of {values.shape[2]} attributes")
+    numbers = None
+    if ids is not None:
+        numbers = np.asarray(ids)
+        if (
+            numbers.shape != (count,)
+            or numbers.dtype.kind not in "iu"
+            or (count and (numbers.min() < 0 or numbers.max() >= 2**32))
+        ):
+            raise ValueError(f"ids: ({count},) whole numbers from 0 to 2^32 − 1 are expected")
+        numbers = np.ascontiguousarray(numbers, dtype=np.uint32)
+    return _core.from_arrays(np.ascontiguousarray(vertices), np.ascontiguousarray(values), names, numbers)
+
+
+def pick(quads: Quads, positions: int | slice | Iterable[int]) -> Quads:
+    """Some of the quads, by position: a number, a slice, or several numbers. Ids stay."""
+    chosen = np.atleast_1d(
+        np.arange(len(quads))[positions if isinstance(positions, (int, slice)) else list(positions)]
+    )
+    return quads.pick(chosen.tolist())
+
+
+def scene(name: str, size: tuple[int, int] = (512, 512), attributes: str = "uv") -> Quads:
+    """A built-in scene (`scenes()`) for a viewport.
+
+    attributes: uv (u, v), normal (nx, ny, nz), uv_normal, weights (w0 to w3), position (px, py, pz), colour (red,
+    green, blue) or none.
+    """
+    return _core.scene(name, *size, attributes)
+
+
+def scenes(workloads: bool = False) -> list[dict[str, Any]]:
+    """The papers' figures, or loads for the machine: name, title, paper, quads."""
+    return _core.list_workloads() if workloads else _core.list_scenes()
+
+
+def stress(
+    family: str, count: int = 1000, *, seed: int = 1, size: tuple[int, int] = (512, 512), attributes: int = 4
+) -> Quads:
+    """Random quads of a stress family (`stress_families()`), with random attributes a0, a1, …"""
+    return _core.stress(family, count, seed, *size, attributes)
+
+
+def stress_families() -> dict[str, str]:
+    """Name and what it holds of each family."""
+    return _core.list_stress()
+
+
+def corner(
+    group: str, config: Config | None = None, *, seed: int = 1, size: tuple[int, int] = (512, 512), attributes: int = 4
+) -> Quads:
+    """Directed quads of a corner group (`corners()`), which a configuration meets exactly."""
+    from ._draw import make_state
+
+    config = config or Config()
+    return _core.corner(group, config, make_state(config, size), seed, attributes)
+
+
+def corners() -> dict[str, str]:
+    """Name and what occurs in it of each corner group."""
+    return _core.list_corners()
+
+
+def methods() -> dict[str, str]:
+    """Name and what it does of each method of the papers, for `method()`."""
+    return _core.list_methods()
+
+
+def project(
+    mesh: Mesh,
+    size: tuple[int, int] = (512, 512),
+    *,
+    camera: Camera | None = None,
+    attributes: str = "uv",
+    up: Direction = (0, 1, 0),
+    view_from: Direction | None = None,
+    strict: bool = False,
+) -> Quads:
+    """Quads of a mesh seen by a camera; without one, by one that shows all of it, from the direction `view_from` (mesh
+    to eye, in the mesh's space).
+
+    Id: 0-based face. A triangle becomes (a, b, c, c); a face with more corners is cut, and refused with `strict`.
+    attributes: as of `scene()`.
+    """
+    if camera is None:
+        camera = _core.frame_mesh(mesh, *size, tuple(up), None if view_from is None else tuple(view_from))
+    return _core.project(mesh, camera, *size, attributes, strict)
+
+
+def load_obj(
+    path: StrPath,
+    size: tuple[int, int] = (512, 512),
+    *,
+    camera: Camera | StrPath | None = None,
+    attributes: str = "uv",
+    up: Direction = (0, 1, 0),
+    view_from: Direction | None = None,
+    strict: bool = False,
+) -> Quads:
+    """`project()` of an OBJ file; camera: a `Camera` or the path of a JSON file. Raises InputError with file and line."""
+    if camera is not None and not isinstance(camera, Camera):
+        camera = Camera.load(camera)
+    return project(
+        Mesh.load(path), size, camera=camera, attributes=attributes, up=up, view_from=view_from, strict=strict
+    )
+
+
+def load_quads(path: StrPath) -> Quads:
+    """Quads of a .quads file; attributes a0, a1, … Raises InputError with file and line."""
+    return _core.load_quads(path)
+
+
+def save_quads(path: StrPath, quads: Quads) -> None:
+    """Writes a .quads file, from which `load_quads()` gives the same doubles."""
+    _core.save_quads(path, quads)

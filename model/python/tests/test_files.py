@@ -1,0 +1,77 @@
+"""Own files: an OBJ to an array of u, v, cameras, .quads."""
+
+import json
+
+import numpy as np
+import pytest
+
+import quadrille
+
+MESH = """# a tilted square and a triangle beside it
+v -1 -1 0
+v 1 -1 0
+v 1 1 -1
+v -1 1 -1
+v 3 0 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3 4/4
+f 2/2 5/1 3/3
+"""
+
+
+def test_own_mesh_in_five_lines(tmp_path):
+    path = tmp_path / "mesh.obj"
+    path.write_text(MESH)
+    quads = quadrille.load_obj(path)
+    fragments = quadrille.draw(quads)
+    uv = np.stack([fragments["u"], fragments["v"]], axis=1)
+    assert uv.shape == (len(fragments), 2) and len(uv) > 20000 and uv.min() >= 0 and uv.max() <= 1
+    assert set(fragments["quad"]) == {0, 1} and quads.size == (512, 512) and quads.names == ["u", "v"]
+    assert quads.corners[0].tolist() == [[-1, -1, 0], [1, -1, 0], [1, 1, -1], [-1, 1, -1]]
+    true = quadrille.truth(quads)
+    assert len(true) == len(fragments)
+    in_order = np.lexsort((fragments["x"], fragments["y"], fragments["quad"]))
+    assert np.abs(uv[in_order, 0] - true["u"]).max() <= quadrille.Config().bounds()["attribute"]
+
+
+def test_cameras(tmp_path):
+    mesh = quadrille.Mesh.parse(MESH, "mesh")
+    assert len(mesh.faces) == 2 and mesh.faces[0] == (0, 1, 2, 3) and mesh.positions.shape == (5, 3)
+    camera = {"eye": [0, 0, 4], "target": [0, 0, 0], "up": [0, 1, 0], "fovy": 40, "near": 1, "far": 9}
+    path = tmp_path / "camera.json"
+    path.write_text(json.dumps(camera))
+    loaded, made = quadrille.Camera.load(path), quadrille.Camera(**camera)
+    assert loaded.text() == made.text() and loaded.eye == [0, 0, 4]
+    a = quadrille.project(mesh, (64, 48), camera=loaded)
+    (tmp_path / "mesh.obj").write_text(MESH)
+    b = quadrille.load_obj(tmp_path / "mesh.obj", (64, 48), camera=path)
+    assert np.array_equal(a.vertices, b.vertices)
+    # By hand: perspective of 40 degrees, aspect 4/3, clip space to window.
+    f = 1 / np.tan(np.radians(20))
+    x, y, z, w = a.vertices[0, 0]
+    assert (
+        w == pytest.approx(4)
+        and x / w == pytest.approx((1 - f * 0.75 / 4) * 32)
+        and y / w == pytest.approx((1 + f / 4) * 24)
+    )
+    assert z / w == pytest.approx((1 + (10 / 8 - 2 * 9 / 8 / 4)) / 2)
+    path.write_text('{"eye": [0, 0, 4],\n "fovy": 200}')
+    with pytest.raises(quadrille.InputError, match="camera.json"):
+        quadrille.Camera.load(path)
+    front = quadrille.project(mesh, attributes="uv_normal", view_from=(0, 0, 1))
+    assert front.names == ["u", "v", "nx", "ny", "nz"] and np.allclose(
+        front.attributes[0, 0, 2:], [0, np.sqrt(0.2), np.sqrt(0.8)], atol=0.2
+    )
+
+
+def test_quads_files(tmp_path):
+    quads = quadrille.stress("any_w", 20, attributes=3)
+    quadrille.save_quads(tmp_path / "a.quads", quads)
+    again = quadrille.load_quads(tmp_path / "a.quads")
+    assert np.array_equal(again.vertices, quads.vertices) and np.array_equal(again.attributes, quads.attributes)
+    (tmp_path / "b.quads").write_text("1 2 3\n")
+    with pytest.raises(quadrille.InputError, match="b.quads:1: "):
+        quadrille.load_quads(tmp_path / "b.quads")

@@ -1,0 +1,32 @@
+"""The notebooks run from the first cell to the last, and show pictures."""
+
+import base64
+import os
+import pathlib
+
+import nbclient
+import nbformat
+import pytest
+
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / "notebooks"
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+
+
+def test_there_are_notebooks():
+    assert len(NOTEBOOKS) >= 2
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
+def test_notebook(path, tmp_path):
+    notebook = nbformat.read(path, as_version=4)
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(not cell.outputs and cell.execution_count is None for cell in cells), "outputs are not committed"
+    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": tmp_path}}).execute()
+    outputs = [output for cell in cells for output in cell.outputs]
+    assert not [output for output in outputs if output.output_type == "error"]
+    pictures = [output.data["image/png"] for output in outputs if "image/png" in output.get("data", {})]
+    assert len(pictures) >= 2 and min(map(len, pictures)) > 4000  # an empty one is smaller
+    # To be looked at: QUADRILLE_PICTURES=FOLDER
+    if folder := os.environ.get("QUADRILLE_PICTURES"):
+        for i, picture in enumerate(pictures):
+            pathlib.Path(folder, f"{path.stem}_{i}.png").write_bytes(base64.b64decode(picture))
