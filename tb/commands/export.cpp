@@ -157,11 +157,11 @@ void add_export_command(CLI::App& app, Invocation& invocation) {
       *command,
       "Modules, packages and macros begin with the prefix, so machines of different configurations fit in one design. "
       "Files of these names in DIR are replaced:\n"
-      "  NAME.sv    the machine, top module NAME\n"
-      "  NAME_tb.sv  a bench; needs NAME_states.hex, NAME_stimulus.hex, NAME_response.hex of the folder in which it "
-      "runs\n"
-      "  NAME.f     file list\n"
-      "  NAME.sdc   clock\n\n"
+      "  NAME.sv     the machine, top module NAME; any tool reads it alone\n"
+      "  NAME.f      file list\n"
+      "  NAME.sdc    clock\n"
+      "  NAME_tb.sv  bench, which must print 0 missing, 0 differences\n"
+      "  NAME_*.hex  what it reads in the folder where it runs\n\n"
       "In DIR: iverilog -g2012 -o tb NAME.sv NAME_tb.sv && vvp -N tb",
       "0 done; 2 usage or input error",
       {"export --prefix quads --out ip",
