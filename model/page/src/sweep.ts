@@ -40,7 +40,7 @@ export function show_sweep(plot: SVGSVGElement, points: Point[], now: number, ch
     parts.push(
       shape("text", { x: x(value), y: height - 18, "text-anchor": anchor }, `${Math.round(value / 1000)},000`),
     );
-  parts.push(shape("text", { x: (left + width) / 2, y: height - 4, "text-anchor": "middle" }, "cost in LUTs, DSP blocks included; dots: worst error, line: bound"));
+  parts.push(shape("text", { x: (left + width) / 2, y: height - 4, "text-anchor": "middle" }, "cost in LUTs, DSP blocks at their price"));
   const line = points.filter((p) => p.bound !== null).map((p) => `${x(p.cost)},${y(log(p.bound!))}`);
   parts.push(shape("polyline", { class: "bound", points: line.join(" ") }));
   for (const p of points) {
