@@ -27,7 +27,7 @@ if [ ! -e "$module/build.ninja" ]; then
     -DQUADRILLE_BUILD_TOOLS=OFF -DQUADRILLE_BUILD_STUDIES=OFF -DQUADRILLE_BUILD_TESTS=OFF -DQUADRILLE_INSTALL=OFF -DQUADRILLE_WERROR=OFF \
     -Wno-dev >"$tools/configure.log" 2>&1 || { cat "$tools/configure.log" >&2; exit 1; }
 fi
-cmake --build "$module" -j "$(nproc)" --target quadrille_page
+cmake --build "$module" -j "$(nproc)" --target quadrille_page page_lanes_check
 
 mkdir -p "$output"
 cp "$module/model/page/quadrille_page" "$output/quadrille.wasm"

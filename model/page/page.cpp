@@ -7,6 +7,7 @@
 #include "model/page/drawing.hpp"
 #include "model/page/json.hpp"
 #include "model/page/stepper.hpp"
+#include "model/page/sweep.hpp"
 #include "model/page/views.hpp"
 #include "model/port/snap.hpp"
 
@@ -241,6 +242,11 @@ EXPORT(fragments) int fragments() {
         .put("depth", drawing.state.depth)
         .text();
   });
+}
+
+/// What other significands cost and gain on the same quads.
+EXPORT(sweep) int sweep() {
+  return answer([](const std::string& text) { return sweep_json(make_drawing(parse_request(text))); });
 }
 
 /// The clocked machine, before its first clock.

@@ -5,7 +5,8 @@ import { Latest, Model, type Configuration, type Drawn, type Lists } from "./mod
 import { command_line, config_of, parse_state, request_text, state_text, toml_text, view_text, without_view, pixel_text, type State } from "./state";
 import { show_explained, type Explained } from "./pixel";
 import { Stepping } from "./step";
-import { difference, legend, show_legend, views } from "./views";
+import { show_sweep, type Point } from "./sweep";
+import { difference, is_picture, legend, show_legend, views } from "./views";
 import type { Answer } from "./worker";
 
 const machine = new Model();
@@ -50,6 +51,7 @@ function show_drawn(answer: Answer, text: string) {
   const beside = view_text(state);
   if (beside !== null) look.ask(beside);
   show_stepping();
+  ask_sweep();
   const pixel = pixel_text(state);
   if (pixel !== null) explain.ask(pixel);
   drag.show(drawn, size);
@@ -77,7 +79,7 @@ function paint_compared() {
   const size = size_of(state);
   let bytes = compared.bytes;
   if (bytes.byteLength !== 4 * size[0] * size[1]) return;
-  if (state.values.has("difference") && picture.bytes.byteLength === bytes.byteLength)
+  if (state.values.has("difference") && is_picture(state.values.get("view") ?? "error") && picture.bytes.byteLength === bytes.byteLength)
     bytes = difference(new Uint8ClampedArray(picture.bytes), new Uint8ClampedArray(bytes), 16).buffer as ArrayBuffer;
   paint(element<HTMLCanvasElement>("beside"), size, bytes);
   document.body.dataset.compared = compared.text;
@@ -98,6 +100,17 @@ const stepping = new Stepping(
   },
   () => new Uint8ClampedArray(picture.bytes),
 );
+const sweep = new Latest(study, "sweep", (answer) => {
+  if (answer.error) return;
+  const points = (answer.result as unknown as { points: Point[] }).points;
+  const now = Number(state.values.get("significand_bits") ?? lists.keys.find((k) => k.name === "significand_bits")!.standard);
+  show_sweep(element<SVGSVGElement>("front"), points, now, (bits) => change(["significand_bits", String(bits)]));
+});
+/** While it is open. */
+const ask_sweep = () => {
+  if (element<HTMLDetailsElement>("sweep").open) sweep.ask(request_text(state));
+};
+
 let stepped = "";
 /** A machine of the state, from its first clock on, where that is what stands beside. */
 function show_stepping() {
@@ -137,6 +150,7 @@ function show_state() {
   const view = state.values.get("view") ?? "error";
   element<HTMLSelectElement>("view").value = view;
   element<HTMLInputElement>("difference").checked = state.values.has("difference");
+  element("difference_label").hidden = !is_picture(view);
   element("beside_figure").hidden = view === "";
   element("beside_figure").parentElement!.classList.toggle("one", view === "");
   // Browsers allow few changes of an address a second.
@@ -245,6 +259,7 @@ function listen() {
     set_theme(theme);
     change(["theme", theme]);
   });
+  element("sweep").addEventListener("toggle", ask_sweep);
   on_click("step_start", () => {
     stepped = "";
     show_stepping();
@@ -289,7 +304,7 @@ Object.assign(window, {
     frames: () => frames,
     hash: () => state_text(state),
     settled: () => drawn !== null && !draw.busy && !configure.busy,
-    all_settled: () => drawn !== null && !draw.busy && !configure.busy && !look.busy && !explain.busy,
+    all_settled: () => drawn !== null && !draw.busy && !configure.busy && !look.busy && !explain.busy && !sweep.busy,
   },
 });
 start();

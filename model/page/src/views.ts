@@ -18,7 +18,9 @@ export const views: [string, string][] = [
   ["machine", "the machine, clock by clock"],
 ];
 
-/** What the bound does not hold for it is said too. */
+/** Those that are pictures of the same quads, and so may be compared by colour. */
+export const is_picture = (view: string) => !["", "error", "coverage", "clocks", "machine", "front"].includes(view);
+
 export function legend(view: string, result: Record<string, unknown>): [string, string][] {
   const count = (name: string) => (result[name] as number).toLocaleString("en");
   switch (view) {
@@ -58,12 +60,15 @@ export function legend(view: string, result: Record<string, unknown>): [string, 
 
 export function show_legend(box: HTMLElement, entries: [string, string][]) {
   box.replaceChildren(
-    ...entries.flatMap(([colour, text]) => {
+    ...entries.map(([colour, text]) => {
+      const entry = document.createElement("span");
       const swatch = document.createElement("span"), words = document.createElement("span");
+      entry.className = "entry";
       swatch.className = colour === "scale" ? "swatch scale" : "swatch";
       if (colour.startsWith("#")) swatch.style.background = colour;
       words.textContent = text;
-      return colour ? [swatch, words] : [words];
+      entry.append(...(colour ? [swatch, words] : [words]));
+      return entry;
     }),
   );
 }

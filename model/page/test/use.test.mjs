@@ -227,6 +227,23 @@ test("a picture of one's own is the texture, and stays here", async () => {
   await page.waitForFunction(() => /own.txt/.test(document.getElementById("error").textContent));
 });
 
+test("the sweep: more bits, smaller errors, each within its bound; a point is chosen", async () => {
+  const { points, worst, bound } = await page.evaluate(async () => {
+    const { result } = await window.quadrille.call("sweep", "scene=fig10_convex");
+    const one = await window.quadrille.call("view", "scene=fig10_convex\nview=error");
+    return { ...result, worst: one.result.worst, bound: one.result.bound };
+  });
+  assert.deepEqual(points.map((p) => p.significand_bits), Array.from({ length: 19 }, (_, i) => i + 8));
+  for (const p of points) assert.ok(p.worst > 0 && p.worst < p.bound, JSON.stringify(p));
+  assert.ok(points.at(-1).worst < points[0].worst / 2 ** 14);
+  assert.ok(points[10].worst <= worst * bound && points[10].worst > (worst * bound) / 2);
+  await page.click("#sweep summary");
+  await page.locator("#front .point").first().focus();
+  await page.keyboard.press("Enter");
+  assert.equal((await values()).get("significand_bits"), "8");
+  await page.waitForFunction(() => document.querySelector("#front .now")?.getAttribute("aria-label").startsWith("s = 8:"));
+});
+
 test("dragging draws at least 30 pictures in a second of a processor", async () => {
   // By the time that the worker has the processor, so that what else the machine does makes no difference.
   const watched = await launch_watched();
