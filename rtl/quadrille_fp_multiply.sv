@@ -16,7 +16,6 @@ module quadrille_fp_multiply #(
 );
   logic [2*S-1:0] product;
   logic nonzero;
-
   assign product = (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
 

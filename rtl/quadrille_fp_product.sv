@@ -18,7 +18,6 @@ module quadrille_fp_product #(
   logic [E-1:0] exp_sum;
   logic [2*S-1:0] product;
   logic nonzero;
-
   assign exp_sum = a_exp_i + b_exp_i;
   assign product = (2 * S)'(a_sig_i) * (2 * S)'(b_sig_i);
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
