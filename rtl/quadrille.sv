@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Quadrille: rasterizer whose primitive is the quadrilateral, with mean value coordinates. Top level: wiring only.
 //
 //     front: vertex_assembly -> quad_setup   tiles: tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit
 //     pixel: pixel_pipeline -> fragment_fifo     multipliers: vertex_products (quad_setup, tile_context)
 //
+// Inside, a bundle X goes over with X_valid and its taker's take, or with a push that its taker's ready, or room, allows.
 // Ports: README.md; number formats and clocks: SPEC.md. Both streams are valid/ready: valid never depends on ready,
 // payload is stable while valid and not ready. state_i is static while quads are under way (asserted). The pixel
 // pipeline never waits: pixel_emit counts the places of the fragment FIFO. clear_hidden_i goes with a clear of the
@@ -32,7 +32,6 @@ module quadrille (
 );
   localparam int GRAD = quadrille_pkg::GRAD_BITS;
   localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, PIXELS = quadrille_pkg::PIXELS_BITS;
-
   quadrille_config_check u_config_check ();
 
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
@@ -40,7 +39,6 @@ module quadrille (
   logic [quadrille_pkg::FRONT_EVENTS_BITS-1:0] front_events;
   logic [quadrille_pkg::TILES_EVENTS_BITS-1:0] tiles_events;
   logic [quadrille_pkg::PIXEL_EVENTS_BITS-1:0] pixel_events;
-
   assign vertex_ready_o = assembly_ready && depths_ready;
   assign busy_o = assembly_busy || slots_busy || fragments_busy || !depths_ready;
 
@@ -55,7 +53,6 @@ module quadrille (
   logic [quadrille_pkg::PRODUCTS_BITS-1:0] products;
   logic [quadrille_pkg::EDGES_BITS-1:0] edges;
   logic [6*GRAD-1:0] emit_gx, emit_gy;
-
   quadrille_front u_front (
       .clk_i, .rst_ni, .state_i, .flush_i, .vertex_i, .vertex_valid_i(vertex_valid_i && depths_ready),
       .vertex_ready_o(assembly_ready), .assembly_busy_o(assembly_busy), .slots_busy_o(slots_busy), .start_o(start),
@@ -70,7 +67,6 @@ module quadrille (
   logic [PIXELS-1:0] pixels;
   logic [quadrille_pkg::CONTEXT_BITS-1:0] tile;
   logic freed, discard;
-
   quadrille_tiles u_tiles (
       .clk_i, .rst_ni, .state_i, .clear_hidden_i(clear_hidden_i && !busy_o), .depths_ready_o(depths_ready),
       .start_i(start), .start_slot_i(start_slot), .quad_i(quad), .limits_i(limits), .setup_valid_i(setup_valid),

@@ -21,7 +21,6 @@ module quadrille_bounding_range #(
   logic [T-1:0] low_up;
   logic [IW-1:0] low_px, high_px, begin_px, last_px, lo_q, hi_q;
   logic low_inside, high_inside;
-
   assign low_up = low_i + T'((1 << FRAC) - 1);
   assign low_px = IW'($signed(low_up) >>> FRAC);
   assign high_px = IW'($signed(high_i) >>> FRAC);

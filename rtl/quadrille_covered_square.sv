@@ -11,7 +11,6 @@ module quadrille_covered_square (
   logic diagonal;  // it has a sign
   logic back1, back2, front1, front2;  // the clauses without the diagonal
   logic back, front;
-
   assign all_pos = some_pos_i & ~some_neg_i;
   assign all_neg = some_neg_i & ~some_pos_i;
   assign diagonal = some_pos_i[4] || some_neg_i[4];

@@ -19,7 +19,6 @@ module quadrille_denominator_operands #(
   logic [1:0] first, second, after_first, after_second;
   logic [4*2-1:0] root_index, k_index;
   logic [4*F-1:0] k;
-
   assign first = class_i[quadrille_pkg::CLASS_FIRST+:2];
   assign second = class_i[quadrille_pkg::CLASS_SECOND+:2];
   assign after_first = first + 2'd1;

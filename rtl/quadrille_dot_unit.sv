@@ -19,7 +19,6 @@ module quadrille_dot_unit #(
   logic [2*W-1:0] x, y;  // the factors of either product
   logic [2*OUT-1:0] product;
   logic [3:0] subtract_q;
-
   assign x = {c_i, a_i};
   assign y = {d_i, b_i};
 
@@ -33,7 +32,6 @@ module quadrille_dot_unit #(
     logic [2*W-1:0] ends_q;
     logic signed [2*SUM-1:0] end_sum_q, middle;
     logic [2*W-1:0] product_q;
-
     assign middle = ss_q - end_sum_q;  // xh yl + xl yh
 
     always_ff @(posedge clk_i) begin

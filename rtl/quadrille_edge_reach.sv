@@ -17,7 +17,6 @@ module quadrille_edge_reach #(
 
   logic [REACH-1:0] gx, gy, low, high;
   logic x_neg, y_neg;
-
   assign gx = REACH'($signed(gx_i));
   assign gy = REACH'($signed(gy_i));
   assign x_neg = gx_i[GRAD-1];

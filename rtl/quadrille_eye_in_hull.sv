@@ -15,7 +15,6 @@ module quadrille_eye_in_hull (
 );
   logic [3:0] positive;
   logic some_pos, some_neg;  // among d_123, -d_023, d_013, -d_012
-
   assign positive = ~negative_i & ~zero_i;
   assign some_pos = positive[2] || negative_i[1] || positive[3] || negative_i[0];
   assign some_neg = negative_i[2] || positive[1] || negative_i[3] || positive[0];

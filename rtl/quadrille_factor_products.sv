@@ -61,7 +61,6 @@ module quadrille_factor_products #(
   logic neighbours, late_neighbours;  // two edges with a corner in common
   logic [1:0] corner, late_corner;  // which
   logic [F-1:0] own, opposite, both;
-
   assign first = class_i[quadrille_pkg::CLASS_FIRST+:2];
   assign second = class_i[quadrille_pkg::CLASS_SECOND+:2];
   assign neighbours = class_i[quadrille_pkg::CLASS_TWO_EDGE] && first[0] != second[0];

@@ -35,7 +35,6 @@ module quadrille_fixed_point #(
 
   // Stage 2: shift. What belongs above the top has a negative distance, or a one in the place that the result has not.
   logic far;
-
   assign far = distance_q[E:NEAR] != '0;
 
   always_ff @(posedge clk_i) begin

@@ -47,7 +47,6 @@ module quadrille_forward_difference_column #(
   if (QUADRATIC) begin : gen_bend
     logic [BEND_BITS-1:0] bend_d, bend_q;
     logic bend_carry_d, bend_carry_q;
-
     quadrille_small_multiply #(.FACTOR_BITS(CURV_BITS), .NUMBER_BITS(NORM_BITS)) u_bend (
         .factor_i(q_i), .digits_i(norm_digits_i), .product_o(bend_d), .carry_o(bend_carry_d)
     );

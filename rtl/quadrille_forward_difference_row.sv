@@ -22,7 +22,6 @@ module quadrille_forward_difference_row #(
   logic [GRAD_BITS+TILE_LOG2-1:0] rise;
   logic carry;
   logic [VALUE_BITS-1:0] row;
-
   quadrille_small_multiply #(.FACTOR_BITS(GRAD_BITS), .NUMBER_BITS(TILE_LOG2)) u_rise (
       .factor_i(gy_i), .digits_i(row_digits_i), .product_o(rise), .carry_o(carry)
   );

@@ -20,7 +20,6 @@ module quadrille_fp_add #(
   logic swap;
   logic [TERM-1:0] first_q, second_q;
   logic [E-1:0] first_exp_q, distance_q;
-
   assign a_above = {1'b0, a_rank_i} - {1'b0, b_rank_i};
   assign b_above = {1'b0, b_rank_i} - {1'b0, a_rank_i};
   assign swap = a_above[RANK];
@@ -46,7 +45,6 @@ module quadrille_fp_add #(
 
   // ---- Stage 3: add. A product in [1, 4) and less than another such one: the highest one is in the upper three -----
   logic [TERM:0] sum;
-
   assign sum = (TERM + 1)'(augend_q) + (TERM + 1)'(addend_q);
 
   always_ff @(posedge clk_i) begin

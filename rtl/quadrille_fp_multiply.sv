@@ -22,7 +22,6 @@ module quadrille_fp_multiply #(
       .b_i(b_sig_i),
       .product_o(product)
   );
-
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
 
   always_ff @(posedge clk_i) {exp_o, sig_o} <= quadrille_pkg::truncated_product(a_exp_i + b_exp_i, product, nonzero);

@@ -28,7 +28,6 @@ module quadrille_fp_normalise #(
   logic [KEPT-1:0] coarse_top, coarse_q;
   logic [COUNT_BITS-1:SPLIT] high_count_d, high_count_q;
   logic [E-1:0] top_exp_d, top_exp_q;  // of a one at the top
-
   assign coarse_top = KEPT'(coarse_d >> (WIDE - KEPT));
   assign top_exp_d = bias_i + E'(WIDTH - 1);
 
@@ -43,14 +42,12 @@ module quadrille_fp_normalise #(
   // Stage 2
   logic [KEPT-1:0] fine;
   logic [SPLIT-1:0] low_count;
-
   quadrille_shift_to_top #(.WIDTH(KEPT), .FIRST(SPLIT - 1)) u_fine (
       .value_i(coarse_q), .count_o(low_count), .value_o(fine)
   );
 
   logic [E-1:0] exp;
   logic [S-1:0] sig;
-
   assign sig = S'(fine >> (KEPT - S));
   assign exp = !fine[KEPT-1] ? '0 : top_exp_q - E'({high_count_q, low_count});
 

@@ -24,7 +24,6 @@ module quadrille_fp_product #(
       .b_i(b_sig_i),
       .product_o(product)
   );
-
   assign exp_sum = a_exp_i + b_exp_i;
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
   assign rank_o = quadrille_pkg::exponent_rank(exp_sum, nonzero);

@@ -51,7 +51,6 @@ module quadrille_fp_sum #(
   logic [TERMS*TERM-1:0] term_q;
   logic [TERMS-1:0] neg_q;
   logic [E-1:0] top_exp_q;
-
   assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] :
       higher_q[0+:RANK];
 
@@ -125,7 +124,6 @@ module quadrille_fp_sum #(
 
   // ---- Stages 5, 6: normalise --------------------------------------------------------------------------------------
   logic nonzero_neg;
-
   assign nonzero_neg = magnitude_neg_q && magnitude_q != '0;
 
   quadrille_delay_line #(.WIDTH(1), .DEPTH(quadrille_pkg::FP_NORMALISE_STAGES)) u_neg (.clk_i, .data_i(nonzero_neg),

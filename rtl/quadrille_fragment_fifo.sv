@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
-
 // Where the pixel pipeline, which never waits, meets the fragment port, which may: 2^DEPTH_LOG2 words in memory, the
 // head in a register.
 //
@@ -30,7 +29,6 @@ module quadrille_fragment_fifo #(
   logic [DEPTH_LOG2:0] count_q;  // of words in memory
   logic some_q;  // count_q is not 0
   logic push, load, free;
-
   assign push = push_i != '0;
   assign free = !valid_o || ready_i;
   assign load = some_q && free;

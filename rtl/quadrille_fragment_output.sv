@@ -61,7 +61,6 @@ module quadrille_fragment_output #(
     logic overflow_d, overflow_q;
     logic [AO:0] fixed;  // with the bit that rounds
     logic [SUM-1:0] sum_q;
-
     quadrille_fp_raw_product u_product (
         .clk_i, .neg_i(attr_neg_i[g] ^ rk_neg_i), .a_exp_i(attr_exp_i[g*E+:E]), .a_sig_i(attr_sig_i[g*S+:S]),
         .b_exp_i(rk_exp_i), .b_sig_i(rk_sig_i), .neg_o(prod_neg), .exp_o(exp), .prod_o(prod)
@@ -69,8 +68,7 @@ module quadrille_fragment_output #(
 
     // A difference of two values has one integer bit more than a value.
     quadrille_fixed_point #(
-        .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS + 1),
-        .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS + 1)
+        .INT_BITS(quadrille_pkg::ATTRIBUTE_INT_BITS + 1), .FRAC_BITS(quadrille_pkg::ATTRIBUTE_FRAC_BITS + 1)
     ) u_fixed (
         .clk_i, .neg_i(prod_neg), .exp_i(exp), .prod_i(prod), .overflow_o(overflow_d), .neg_o(neg), .fixed_o(fixed)
     );
@@ -107,7 +105,6 @@ module quadrille_fragment_output #(
   logic outside, near_cuts, far_cuts, below, beyond;
   logic [DB:0] least_z, greatest_z, depth_q;
   logic depth_discard_q, behind_q, behind_early_q;
-
   quadrille_fp_raw_product u_product_z (
       .clk_i, .neg_i(z_neg_i ^ rw_neg_i), .a_exp_i(z_exp_i), .a_sig_i(z_sig_i), .b_exp_i(rw_exp_i), .b_sig_i(rw_sig_i),
       .neg_o(z_prod_neg), .exp_o(z_exp), .prod_o(z_prod)
@@ -146,7 +143,6 @@ module quadrille_fragment_output #(
   logic [7:0] flags;
   logic valid_d;
   logic [FB-1:0] fragment_d;
-
   assign {two_corner, on_vertex, two_edge, on_edge, notch} = flags_i;
   assign flags = {overflow != '0, notch, homogeneous_i, tie_i, two_edge, two_corner, on_vertex, on_edge};
   assign valid_d = valid_i && !(hull_i && behind_q) && !depth_discard_q;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // From vertices to quads that are set up: assembly, setup, the multipliers that it shares with tile_context, the quads'
 // slots and their gradients.
 module quadrille_front #(
@@ -46,7 +45,6 @@ module quadrille_front #(
   logic [quadrille_pkg::JOBS_BITS-1:0] setup_jobs;
   logic [PAIRS*(quadrille_pkg::VAL_BITS+2*GRAD)-1:0] edges;
   logic [2:0] setup_events;
-
   assign drop_vertices = full && state.skip[1] && (empty || behind || outside_depth);
   assign start_o = full && !drop_vertices && setup_ready && slot_available;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // What coverage and emission need to know of a quad, by slot: written when the walk takes the quad, read until it
 // leaves the pipeline. Reads end in registers. Not reset.
 module quadrille_gradient_bank #(
@@ -22,7 +21,6 @@ module quadrille_gradient_bank #(
   logic [4:0] stamp_tie_pos, stamp_tie_neg;
   logic [3:0] stamp_visible;
   logic [13:0] stamp_q[0:SLOTS-1];
-
   assign edges_o = {stamp_gx, stamp_gy, stamp_tie_pos, stamp_tie_neg, stamp_visible};
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear

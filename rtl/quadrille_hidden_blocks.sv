@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
-
 // Hidden blocks: of blocks of 8x8 tiles of the viewport's grid, bounds that no depth of theirs exceeds in the depth
 // buffer (SPEC.md, hidden_blocks), looked at while tile_walk tests a block, and learned from what hierarchical_z says
 // of each tile under test.
@@ -61,7 +60,6 @@ module quadrille_hidden_blocks #(
   logic [BLOCK_LOG2:0] end_x, end_y;
   logic [WIDE-1:0] even_x, odd_x, even_y, odd_y;
   logic [1:0] needs_x, needs_y;  // by the lowest bit
-
   assign first_x = WIDE'(tile_x_i) >> BLOCK_LOG2;
   assign first_y = WIDE'(tile_y_i) >> BLOCK_LOG2;
   assign end_x = (BLOCK_LOG2 + 1)'(tile_x_i[BLOCK_LOG2-1:0]) + (BLOCK_LOG2 + 1)'(last_column_i);
@@ -81,7 +79,6 @@ module quadrille_hidden_blocks #(
   logic [TAG-1:0] learn_tag, tag_q1, tag_q2;
   logic [2*BLOCK_LOG2-1:0] tile_q1, tile_q2;
   logic hidden_q2;
-
   assign learn_x = WIDE'(learn_x_i) >> BLOCK_LOG2;
   assign learn_y = WIDE'(learn_y_i) >> BLOCK_LOG2;
   assign place = {learn_y[0], learn_x[0], learn_y[ROW-1:1], learn_x[COLUMN-1:1]};
@@ -118,7 +115,6 @@ module quadrille_hidden_blocks #(
   logic [H-1:0] state_far, state_masked, far, masked;
   logic [TILES-1:0] state_mask, mask;
   logic known, whole, joins, again_q1;
-
   assign {word_tag, word_epoch, word_state} = word_q1;
   assign known = word_tag == tag_q1 && word_epoch == epoch_i;
   assign again_q1 = learn_q3 && place_q1 == place_q3;
@@ -130,9 +126,7 @@ module quadrille_hidden_blocks #(
   assign whole = mask == {TILES{1'b1}};
   assign next = whole ? {masked, H'(0), TILES'(0)} : {state_far, masked, mask};
 
-  always_comb begin
-    for (int i = 0; i < TILES; i++) mask[i] = tile_q2 == (2 * BLOCK_LOG2)'(i) || state_mask[i];
-  end
+  always_comb for (int i = 0; i < TILES; i++) mask[i] = tile_q2 == (2 * BLOCK_LOG2)'(i) || state_mask[i];
 
   always_ff @(posedge clk_i) begin
     if (go_i) begin
@@ -151,7 +145,6 @@ module quadrille_hidden_blocks #(
   logic [PLACES-1:0] write_place;
   // what the bank's word tells of the block under test: nothing of it can be seen, or it is not asked
   logic [BANKS-1:0] behind;
-
   assign write = wipe_i || (joins && go_i);
   assign write_place = wipe_i ? wipe_place_i[PLACE-1-:PLACES] : place_q2;
   assign wipe_index = wipe_place_i[PLACE-1-:INDEX];
@@ -172,7 +165,6 @@ module quadrille_hidden_blocks #(
     logic [EPOCH-1:0] bound_epoch;
     logic [H-1:0] bound_far;
     logic needed_q1;
-
     assign x = (b % 2 == 0) ? even_x : odd_x;
     assign y = (b / 2 == 0) ? even_y : odd_y;
     assign index = {y[ROW-2:0], x[COLUMN-2:0]};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // Option hierarchical_z_bits: what of a quad nothing can be seen of, by bounds of the depths in the depth buffer. Tiles
 // and blocks for the walk (hierarchical_z), pixels for coverage (masked_depth). At 0 nothing is hidden.
 module quadrille_hidden_tiles #(
@@ -35,7 +34,6 @@ module quadrille_hidden_tiles #(
     logic [quadrille_pkg::HIDDEN_EPOCH_BITS-1:0] epoch;
     logic [H-1:0] near, far;
     logic lowers;
-
     quadrille_depth_interval u_interval (
         .clk_i, .low_i(quad.depth_low), .high_i(quad.depth_high), .limits_i, .ordinary_i(quad.ordinary), .near_o(near),
         .far_o(far), .lowers_o(lowers)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Hidden tiles: a memory of bounds that no depth of a tile exceeds in the depth buffer (SPEC.md, hierarchical_z),
 // looked at while tile_walk tests a tile.
 //
@@ -73,7 +72,6 @@ module quadrille_hierarchical_z #(
   logic [TAG-1:0] tag, tag_q1;
   logic [V:0] x_after, y_after;  // the first column and row of pixels behind it
   logic whole_q1;  // it lies wholly inside the scissor rectangle
-
   assign tile_x = tile_x0_q + test.column;
   assign tile_y = tile_y0_q + test.row;
   assign wide_x = WIDE'(tile_x);
@@ -101,7 +99,6 @@ module quadrille_hierarchical_z #(
   logic [TAG-1:0] word_tag;
   logic [H-1:0] word_far;
   logic wiping_q, wipe_all_q, known, lower;
-
   assign ready_o = !wiping_q;
   assign wipe_place_o = wipe_q;
   assign epoch_o = epoch_q;
@@ -139,7 +136,6 @@ module quadrille_hierarchical_z #(
   // ---- Blocks of tiles ---------------------------------------------------------------------------------------------
   logic learn, block_behind;
   logic [H-1:0] near_next_q;  // what a hidden tile teaches is behind near: a quad hides nothing of itself
-
   assign learn = test.tested && (hidden_o || (test.covered && whole_q1 && lowers_q));
 
   assign block_hidden_o = on_i && block_behind;

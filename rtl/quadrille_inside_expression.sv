@@ -17,7 +17,6 @@ module quadrille_inside_expression #(
   logic [PLACES-1:0] pos0, pos1, pos2, pos3, pos4;
   logic [PLACES-1:0] neg0, neg1, neg2, neg3, neg4;
   logic [PLACES-1:0] back1, back2, front1, front2;  // the clauses
-
   assign {pos4, pos3, pos2, pos1, pos0} = pos_i;
   assign {neg4, neg3, neg2, neg1, neg0} = neg_i;
   assign back1 = pos4 & pos0 & pos1 & (pos2 | pos3) & {PLACES{visible_i[0]}};

@@ -29,7 +29,6 @@ module quadrille_interpolate #(
 
     for (genvar c = 0; c < CORNERS; c++) begin : gen_corner
       localparam int V = 4 - CORNERS + c;
-
       quadrille_fp_term u_term (
           .clk_i, .neg_i(term_neg_i[FIRST+c]), .a_exp_i(m_exp_i[V*E+:E]), .a_sig_i(m_sig_i[V*S+:S]),
           .b_exp_i(E'($signed(term_exp_i[(FIRST+c)*PE+:PE]))), .b_sig_i(term_sig_i[(FIRST+c)*S+:S]),

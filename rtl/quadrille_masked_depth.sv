@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Masked depth: for each tile two bounds that depths in the depth buffer do not exceed, one for all of the tile and a
 // nearer one for the pixels in a mask (SPEC.md, masked_depth), looked at and lowered by stamp_coverage.
 //
@@ -60,7 +59,6 @@ module quadrille_masked_depth #(
   logic [PLACE-1:0] place;
   logic [TAG-1:0] tag;
   logic [2*H:0] interval;
-
   assign wide_x = WIDE'(tile.tile_x);
   assign wide_y = WIDE'(tile.tile_y);
   assign place = {wide_y[ROW-1:0], wide_x[COLUMN-1:0]};
@@ -226,7 +224,6 @@ module quadrille_masked_depth #(
   localparam int LOW = 3;
   logic [2*LOW-1:0] low, low_c, low_r, low_q1, low_q2, low_q3;
   logic [2:0] way_lowers_q;
-
   assign low = {tile.tile_y[LOW-1:0], tile.tile_x[LOW-1:0]};
   assign wait_o = !tile.end_token && ((context_lowers_q && low == low_c) || (rows_lowers_q && low == low_r)
       || (way_lowers_q[0] && low == low_q1) || (way_lowers_q[1] && low == low_q2) ||

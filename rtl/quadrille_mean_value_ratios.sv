@@ -28,7 +28,6 @@ module quadrille_mean_value_ratios #(
     logic [RANK-1:0] rr_rank, rr_rank_q;
     logic [TERM-1:0] rr_term;
     logic rr_neg;
-
     quadrille_fp_term u_rr (
         .clk_i, .neg_i(1'b0), .a_exp_i(root_exp_i[I*E+:E]), .a_sig_i(root_sig_i[I*S+:S]), .b_exp_i(root_exp_i[J*E+:E]),
         .b_sig_i(root_sig_i[J*S+:S]), .rank_o(rr_rank), .neg_o(rr_neg), .term_o(rr_term)
@@ -39,7 +38,6 @@ module quadrille_mean_value_ratios #(
     // |D| waits for the root and the product.
     logic [E-1:0] d_exp;
     logic [S-1:0] d_sig;
-
     quadrille_delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::SQRT_STAGES +
         quadrille_pkg::PRODUCT_STAGES)) u_delay_d (
         .clk_i, .data_i({d_exp_i[g*E+:E], d_sig_i[g*S+:S]}), .data_o({d_exp, d_sig})

@@ -119,7 +119,6 @@ module quadrille_mean_value_weights #(
   logic [6*F-1:0] product;
   logic [4*RANK-1:0] rank;
   logic [4*TERM-1:0] term;
-
   quadrille_denominator_operands u_edges (
       .class_i, .root_i(root), .k_neg_i, .k_exp_i, .k_sig_i, .root_o(edge_root), .k_o(edge_k), .neg_o(edge_neg)
   );
@@ -154,7 +153,6 @@ module quadrille_mean_value_weights #(
 
   // ---- Factors and their products ----------------------------------------------------------------------------------
   logic [4*F-1:0] x, y, z;
-
   quadrille_weight_factors u_factors (
       .clk_i, .class_i(late_class), .area_i(late_area), .num_i(num), .den_i(den), .root_i(late_root), .edge_n_i(edge_n),
       .k_exp_i(override_k_exp_i), .k_sig_i(override_k_sig_i), .x_o(x), .y_o(y), .z_o(z)

@@ -18,7 +18,6 @@ module quadrille_normalise #(
 );
   logic neg_d, late_neg;
   logic [WIDTH-1:0] magnitude_d, magnitude_q;
-
   assign neg_d = value_i[WIDTH-1] && !CLAMP;
   assign magnitude_d = !value_i[WIDTH-1] ? value_i : CLAMP ? '0 : WIDTH'(0) - value_i;
 

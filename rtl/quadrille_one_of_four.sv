@@ -12,7 +12,6 @@ module quadrille_one_of_four #(
     output logic [WIDTH-1:0] word_o
 );
   logic [WIDTH-1:0] lower;
-
   assign lower = index_i[1] ? {WIDTH{index_i[0]}} : index_i[0] ? words_i[WIDTH+:WIDTH] : words_i[0+:WIDTH];
   assign word_o = !index_i[1] ? lower : (lower & words_i[3*WIDTH+:WIDTH]) | (~lower & words_i[2*WIDTH+:WIDTH]);
 endmodule

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // What the machine did since reset: quads by what became of them, blocks and tiles, rows and stamps, pixels and
 // fragments, products by unit, and clocks by what bound them. SPEC.md says which clock counts what. Read by index; a
 // counter wraps around at 2^COUNTER_BITS.
@@ -29,7 +28,6 @@ module quadrille_performance_counters #(
     `QUADRILLE_IN(`QUADRILLE_PIXEL_EVENTS_T, pixel)
     logic [P*LATENCY-1:0] lane_valid;
     logic [P-1:0] lanes_drawn, lanes_area;
-
     assign {lane_valid, lanes_drawn, lanes_area} = {pixel.lane_valid, pixel.drawn, pixel.area};
 
     // ---- Pixels in front of a unit with multipliers, and its products a pixel --------------------------------------
@@ -47,7 +45,6 @@ module quadrille_performance_counters #(
 
     // Lanes whose numbers are not those of a pixel before, at the units between normalise and the ratios of roots.
     logic [P-1:0] norm_active, root_active, ratio_active;
-
     quadrille_delay_line #(.WIDTH(P), .DEPTH(1)) u_norm_active (
         .clk_i, .data_i(pixel.norm_active), .data_o(norm_active)
     );
@@ -59,12 +56,10 @@ module quadrille_performance_counters #(
     );
 
     logic norm_plane;  // of the pixels in NORM_STAGE
-
     quadrille_delay_line #(.WIDTH(1), .DEPTH(3)) u_norm_plane (.clk_i, .data_i(pixel.norm_plane), .data_o(norm_plane));
 
     // Sums that are not of zeros: k, W, Z, attributes. The pixels of a clock are of one quad.
     logic [SETS-1:0] sum_active, quotient_active, output_active;
-
     quadrille_delay_line #(.WIDTH(SETS), .DEPTH(1)) u_sum_active (
         .clk_i, .data_i(pixel.sum_active), .data_o(sum_active)
     );

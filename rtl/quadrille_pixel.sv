@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // From pixels' positions to fragments: what the quads' slots have for it, the pipeline, the fragment FIFO.
 module quadrille_pixel #(
     localparam int P = quadrille_pkg::PIXELS_PER_CLOCK, GRAD = quadrille_pkg::GRAD_BITS,
@@ -79,7 +78,6 @@ module quadrille_pixel #(
   `QUADRILLE_READS_T read;
   /* verilator lint_on UNUSEDSIGNAL */
   logic [LATENCY-1:0] pixel_at;  // some lane has a pixel in the register
-
   assign setup = setup_i;
   assign read = reads;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Takes stamps apart: the PIXELS_PER_CLOCK lowest pixels a clock, lowest x in lane 0; an end entry becomes an end beat
 // without a pixel. The pixels of a homogeneous quad go in their three parts, one a clock (quadrille_pkg: PART_*); they
 // are pixels, valid, with the last.
@@ -35,7 +34,6 @@ module quadrille_pixel_emit #(
   logic [quadrille_pkg::ROW_DIGIT_BITS-1:0] sent_row_digits;
   logic [quadrille_pkg::PIXELS_PER_CLOCK*quadrille_pkg::TILE_LOG2-1:0] sent_dx;
   logic [quadrille_pkg::PIXELS_PER_CLOCK-1:0] sent_valid, sent_front, sent_tie;
-
   assign pixels_o = {sent_end, sent_part, sent_row, sent_row_digits, sent_dx, sent_valid, sent_front, sent_tie};
 
   // Free places less one: negative when there is none, so that one bit of a register decides.
@@ -43,7 +41,6 @@ module quadrille_pixel_emit #(
   logic [TILE-1:0] sent_q, remaining, chosen;
   logic [1:0] part, part_q;  // part_q: the one before, of a homogeneous quad's pixels
   logic may_send, send_part, whole, send;
-
   assign remaining = head.mask & ~sent_q;
   assign may_send = !spare_q[PLACES+1];
   assign part = head.homogeneous ? part_q + 2'd1 : quadrille_pkg::PART_WHOLE;
@@ -149,7 +146,6 @@ module quadrille_pixel_emit #(
   end
 
   logic [quadrille_pkg::ROW_DIGIT_BITS-1:0] row_digits;
-
   quadrille_radix4_digits #(.NUMBER_BITS(TILE_LOG2)) u_row_digits (.number_i(head.row), .digits_o(row_digits));
 
   always_ff @(posedge clk_i) begin

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // The exact functions of a pixel: A of six pairs of corners, D of the same, r2 of four corners. Latency from the pixel
 // DIFF_STAGE + 1, from its row a clock less.
 module quadrille_pixel_functions #(
@@ -28,7 +27,6 @@ module quadrille_pixel_functions #(
   logic [4*QVAL-1:0] quad;  // four quadratic functions of one part
   logic [2*OFFSET_DIGITS-1:0] dx_digits;
   logic [2*NORM_DIGITS-1:0] norm_digits;
-
   quadrille_offset_digits u_offset (.clk_i, .row_i, .dx_i, .dx_digits_o(dx_digits), .norm_digits_o(norm_digits));
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
@@ -56,7 +54,6 @@ module quadrille_pixel_functions #(
 
   for (genvar g = 0; g < 6; g++) begin : gen_dot
     localparam int I = {30'd0, quadrille_pkg::pair_first(4'(g))}, J = {30'd0, quadrille_pkg::pair_second(4'(g))};
-
     quadrille_law_of_cosines u_dot (
         .clk_i, .r2_first_i(quad[I*QVAL+:QVAL]), .r2_second_i(quad[J*QVAL+:QVAL]), .homogeneous_i(squares_i),
         .exact_i(dot_q[g*QVAL+:QVAL]), .length2_i(length2_i[g*LENGTH2+:LENGTH2]), .d_o(d_o[g*QVAL+:QVAL])

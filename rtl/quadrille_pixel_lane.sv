@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // One pixel a clock, from the row of its tile to its fragment: what a pixel has of its own. pixel_pipeline has
 // PIXELS_PER_CLOCK of these, and what the pixels of a clock have in common: their row, their quad and its data. Never
 // waits.
@@ -46,7 +45,6 @@ module quadrille_pixel_lane #(
   localparam int LAST = quadrille_pkg::LATENCY - 1;  // the output register
 
   logic [LAST:0] valid_q;
-
   assign valid_o = valid_q;
 
   always_ff @(posedge clk_i) begin
@@ -95,7 +93,6 @@ module quadrille_pixel_lane #(
   logic [6*VAL-1:0] diff_a;
   logic [4*QVAL-1:0] diff_r2;
   logic [6*QVAL-1:0] diff_d;
-
   quadrille_pixel_functions u_functions (
       .clk_i, .row_i, .dx_i, .line_i, .part_i, .squares_i, .length2_i(terms.length2), .a_o(diff_a), .d_o(diff_d),
       .r2_o(diff_r2)
@@ -107,7 +104,6 @@ module quadrille_pixel_lane #(
   // operands of everything up to the weights stay as they are. Of a plane_quad the weights are areas: A alone is taken
   // on.
   logic corner, taken_on, norm_active_q, distance_active_q, class_active_q;
-
   assign taken_on = !state.skip[4] || (valid_q[NORM-2] && !corner);
 
   always_ff @(posedge clk_i) begin
@@ -168,7 +164,6 @@ module quadrille_pixel_lane #(
   logic [6*S-1:0] ratio_u_sig, ratio_v_sig;
   logic [4*E-1:0] m_exp;
   logic [4*S-1:0] m_sig;
-
   quadrille_mean_value_ratios u_ratios (
       .clk_i, .a_exp_i(norm_a_exp), .a_sig_i(norm_a_sig), .d_exp_i(norm_d_exp), .d_sig_i(norm_d_sig),
       .root_exp_i(root_exp), .root_sig_i(root_sig), .u_exp_o(ratio_u_exp), .u_sig_o(ratio_u_sig), .v_exp_o(ratio_v_exp),
@@ -187,7 +182,6 @@ module quadrille_pixel_lane #(
   logic [SETS-1:0] sum_neg;
   logic [SETS*E-1:0] sum_exp;
   logic [SETS*S-1:0] sum_sig;
-
   quadrille_interpolate u_interpolate (
       .clk_i, .m_exp_i(m_exp), .m_sig_i(m_sig), .term_neg_i(terms.blend_neg), .term_exp_i(terms.blend_exp),
       .term_sig_i(terms.blend_sig), .sum_neg_o(sum_neg), .sum_exp_o(sum_exp), .sum_sig_o(sum_sig)
@@ -201,7 +195,6 @@ module quadrille_pixel_lane #(
   logic [NUMS-1:0] num_neg;
   logic [NUMS*E-1:0] num_exp;
   logic [NUMS*S-1:0] num_sig;
-
   quadrille_reciprocal u_reciprocal_k (
       .clk_i, .neg_i(sum_neg[0]), .exp_i(sum_exp[0+:E]), .sig_i(sum_sig[0+:S]), .neg_o(rk_neg), .exp_o(rk_exp),
       .sig_o(rk_sig)
@@ -238,7 +231,6 @@ module quadrille_pixel_lane #(
   // A regular pixel's weights are near 1.
   localparam int WEIGHT = quadrille_pkg::WEIGHT_STAGE, OVERRIDES = quadrille_pkg::CLASS_OVERRIDES;
   logic [OVERRIDES-1:0] weight_overrides;
-
   quadrille_delay_line #(.WIDTH(OVERRIDES), .DEPTH(WEIGHT - NORM)) u_weight_overrides (
       .clk_i, .data_i(norm_class[CLASS-1-:OVERRIDES]), .data_o(weight_overrides)
   );

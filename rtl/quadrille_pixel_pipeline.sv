@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // From pixels' positions to their fragments, PIXELS_PER_CLOCK a clock: a pipeline of LATENCY registers that never
 // waits.
 //
@@ -46,7 +45,6 @@ module quadrille_pixel_pipeline #(
 
   logic [LAST:0] end_q;
   logic [P-1:0] pixel;  // in the last register, drawn or discarded
-
   assign release_o = end_q[LAST];
   assign discard_o = pixel != '0 && fragment_valid_o == '0;
 
@@ -84,7 +82,6 @@ module quadrille_pixel_pipeline #(
 
   tag_t fragment_tag;  // output_tag in step with what was read
   logic [SLOT-1:0] length2_slot;
-
   assign reads.length2 = length2_slot;
   assign reads.norm = diff_tag.slot;
   assign reads.product = product_tag.slot;
@@ -103,7 +100,6 @@ module quadrille_pixel_pipeline #(
 
   // ---- The row: value + r gy of all functions ----------------------------------------------------------------------
   logic [quadrille_pkg::ROW_BITS-1:0] line;
-
   quadrille_row_functions u_row (
       .clk_i, .row_digits_i(pixels.row_digits), .tile_i, .gx_i(lin_gx_i), .gy_i(lin_gy_i), .row_o(line)
   );
@@ -112,7 +108,6 @@ module quadrille_pixel_pipeline #(
   localparam int DIFFERENCE = quadrille_pkg::FORWARD_DIFFERENCE_STAGES;
   logic [1:0] part;
   logic squares_q;
-
   quadrille_delay_line #(.WIDTH(2), .DEPTH(DIFFERENCE)) u_part (.clk_i, .data_i(pixels.part), .data_o(part));
   quadrille_delay_line #(.WIDTH(SLOT), .DEPTH(DIFFERENCE - 1)) u_length2_slot (
       .clk_i, .data_i(tile.slot), .data_o(length2_slot)

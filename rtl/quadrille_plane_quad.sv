@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // Whether a quad's values are plane over it, so that any weights give them that reproduce linear functions: areas of
 // triangles in the place of mean value weights (mean_value_weights). Latency 2 from the quad, which vertex_assembly
 // holds at least that long before start.

@@ -26,7 +26,6 @@ module quadrille_quad_reject #(
   logic [CODE-1:0] znear, zfar;
   logic outside_q, near_cuts_q, far_cuts_q;
   logic [DB:0] least_q, greatest_q;
-
   assign znear = {1'b0, znear_i};
   assign zfar = {1'b0, zfar_i};
 

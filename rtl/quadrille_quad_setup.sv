@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Setup of one quad: origin tile, 6 linear functions (value at the origin, first differences), squared lengths of its
 // sides and diagonals, visibility of the clauses. SPEC.md has the clocks: two for the bounding box, while
 // vertex_assembly holds the quad; start; then a step a clock, in which every pair of dot units has a job: 6 steps or,
@@ -60,7 +59,6 @@ module quadrille_quad_setup #(
   logic [20*REACH-1:0] setup_reaches;
   logic [6*LENGTH2-1:0] setup_length2;
   localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
-
   assign setup_o = {setup_slot, setup_tiles, setup_last_row, setup_vertices, setup_homogeneous, setup_hull,
       setup_visible, setup_linear,
       setup_ties, setup_reaches, setup_length2};
@@ -68,7 +66,6 @@ module quadrille_quad_setup #(
   logic boxed;
   logic [TC-1:0] box_x0, box_y0, box_columns, box_rows;
   logic [TL-1:0] box_last_row;
-
   quadrille_setup_box u_box (
       .clk_i, .rst_ni, .state_i, .held_i, .start_i, .empty_i, .quad_i, .boxed_o(boxed), .x0_o(box_x0), .y0_o(box_y0),
       .columns_o(box_columns), .rows_o(box_rows), .last_row_o(box_last_row)
@@ -146,7 +143,6 @@ module quadrille_quad_setup #(
   logic [6*VAL-1:0] lin_value;
   logic [6*GRAD-1:0] lin_gx, lin_gy;
   logic [3:0] negative, zero;  // d_012, d_023, d_123, d_013
-
   quadrille_setup_steps u_steps (
       .clk_i, .rst_ni, .state_i, .start_i, .quad_i, .tile_x0_i(box_x0), .tile_y0_i(box_y0), .run_i(run_q),
       .ordinary_i(front_ordinary_q), .wait_i, .last_o(last), .jobs_o, .edges_o, .kind_o(kind), .group_o(group),
@@ -161,7 +157,6 @@ module quadrille_quad_setup #(
   logic [PAIRS-1:0] job_triangle, job_negated;
   logic [JOB-1:0] job;
   logic [CLOCKS*JOB-1:0] job_q;
-
   assign step_done = run_q && !wait_i;
   assign job = {
     {5{step_done}} & kind,
@@ -192,7 +187,6 @@ module quadrille_quad_setup #(
   end
 
   logic [PAIRS*VAL-1:0] values;
-
   quadrille_setup_functions u_functions (
       .clk_i, .products_i, .edge_job_i(edge_job), .gradient_job_i(gradient_job), .job_group_i(job_group),
       .ordinary_job_i(ordinary_job), .value_o(values), .lin_value_o(lin_value), .lin_gx_o(lin_gx), .lin_gy_o(lin_gy),
@@ -202,7 +196,6 @@ module quadrille_quad_setup #(
 
   logic cornered;
   logic [PAIRS-1:0] corner_neg, corner_zero;
-
   quadrille_setup_determinants u_determinants (
       .clk_i, .products_i, .det_job_i(det_job), .corner_job_i(corner_job), .second_job_i(second_job),
       .negative_o(negative), .zero_o(zero), .cornered_o(cornered), .corner_neg_o(corner_neg),
@@ -211,7 +204,6 @@ module quadrille_quad_setup #(
 
   logic hull;
   logic [3:0] visible;  // of the clauses, as setup_visible
-
   quadrille_eye_in_hull u_eye_in_hull (
       .ordinary_i(sum_ordinary), .negative_i(negative), .zero_i(zero), .hull_o(hull), .visible_o(visible)
   );
@@ -251,7 +243,6 @@ module quadrille_quad_setup #(
   );
 
   logic [3:0] missing;
-
   assign missing = {4{cornered && !sum_ordinary && !hull}} & {separated, separated};
 
   always_ff @(posedge clk_i) if (hand_over) {setup_hull, setup_visible} <= {hull, visible};
@@ -261,7 +252,6 @@ module quadrille_quad_setup #(
   // values come, and known a clock before all is. A homogeneous quad's clauses are those of its determinants, but for
   // triangles that miss the scissor.
   logic [3:0] area_signs, wanted, turned;  // as the clauses of setup.visible
-
   quadrille_setup_areas u_areas (
       .clk_i, .edge_job_i(edge_job), .job_group_i(job_group), .value_i(values), .signs_o(area_signs)
   );

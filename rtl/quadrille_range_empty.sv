@@ -22,7 +22,6 @@ module quadrille_range_empty #(
   logic [IW-1:0] floor, last;
   logic between;  // not on a centre
   logic before_q, behind_q, apart_q, closed_q;
-
   assign floor = coordinate_i[T-1:FRAC];
   assign between = coordinate_i[FRAC-1:0] != '0;
   assign last = IW'(scissor1_i) - IW'(1);

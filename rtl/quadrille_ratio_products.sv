@@ -43,7 +43,6 @@ module quadrille_ratio_products #(
     localparam int FAR = (g == 0) ? 2 : (g == 1) ? 1 : 5;  // 23, 12, 13
     logic near_cancels, far_cancels;
     logic [F-1:0] u_near, u_far, v_near, v_far;
-
     assign near_cancels = d_neg_i[NEAR] == (g < 2);
     assign far_cancels = d_neg_i[FAR] == (g < 2);
     assign u_near = {u_exp_i[NEAR*E+:E], u_sig_i[NEAR*S+:S]};

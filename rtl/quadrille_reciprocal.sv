@@ -25,7 +25,6 @@ module quadrille_reciprocal #(
   logic [E-1:0] exp_d;
   logic [3*S+3:0] word;
   logic [DX_BITS-1:0] dx;
-
   assign zero = sig_i == '0;
   assign exact = sig_i[S-2:0] == '0;
   assign exp_d = zero ? '0 : exact ? E'(0) - exp_i : ~exp_i;  // -e or -e-1
@@ -37,12 +36,10 @@ module quadrille_reciprocal #(
   end
 
   logic [S-1:0] poly;
-
   quadrille_table_polynomial #(.SEGMENTS_LOG2(K)) u_polynomial (.clk_i, .word_i(word), .dx_i(dx), .sig_o(poly));
 
   logic zero_q, exact_q, neg_q;
   logic [E-1:0] exp_q;
-
   quadrille_delay_line #(.WIDTH(E + 3), .DEPTH(quadrille_pkg::RECIPROCAL_STAGES - 1)) u_delay (
       .clk_i, .data_i({zero, exact, neg_i, exp_d}), .data_o({zero_q, exact_q, neg_q, exp_q})
   );

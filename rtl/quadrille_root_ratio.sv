@@ -32,7 +32,6 @@ module quadrille_root_ratio #(
   logic [E-1:0] root_exp, own_exp;
   logic [S-1:0] root_sig, own_sig;
   logic [E+S-1:0] own;
-
   quadrille_sqrt u_sqrt (.clk_i, .exp_i(z_exp_i), .sig_i(z_sig_i), .exp_o(root_exp), .sig_o(root_sig));
 
   quadrille_delay_line #(.WIDTH(E + S), .DEPTH(quadrille_pkg::SQRT_STAGES)) u_delay_own (
@@ -44,7 +43,6 @@ module quadrille_root_ratio #(
   // ---- v_near s, and what waits for it -----------------------------------------------------------------------------
   logic [E+S-1:0] late_root, late_own, late_w, scaled;
   logic near_cancels, far_cancels;
-
   quadrille_fp_multiply u_scaled (
       .clk_i, .a_exp_i(own_exp), .a_sig_i(own_sig), .b_exp_i(root_exp), .b_sig_i(root_sig), .exp_o(scaled[S+:E]),
       .sig_o(scaled[0+:S])
@@ -63,7 +61,6 @@ module quadrille_root_ratio #(
   logic [E+S-1:0] num, den;
   logic [E-1:0] distance, half;
   logic neither_zero;
-
   assign num = !near_cancels ? late_own : far_cancels ? late_w : late_root;
   assign den = !near_cancels ? late_root : far_cancels ? scaled : late_own;
   assign distance = num[S+:E] - den[S+:E];

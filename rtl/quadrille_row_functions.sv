@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // What the pixels of a clock have in common: value + r gy of all functions in their row r of their tile, exact modulo
 // 2^bits. Latency FORWARD_DIFFERENCE_ROW_STAGES; gx and q wait beside it for each lane's forward_difference_column.
 //
@@ -22,12 +21,10 @@ module quadrille_row_functions #(
   logic [4*QVAL-1:0] quad_row;
   logic [4*QGRAD-1:0] quad_gx;
   logic [4*QCURV-1:0] quad_q;
-
   assign row_o = {lin_row, lin_gx, quad_row, quad_gx, quad_q};
 
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic unused;
-
     quadrille_forward_difference_row #(.VALUE_BITS(VAL), .GRAD_BITS(GRAD)) u_row (
         .clk_i, .row_digits_i, .value_i(tile.lin_value[g*VAL+:VAL]), .gx_i(gx_i[g*GRAD+:GRAD]),
         .gy_i(gy_i[g*GRAD+:GRAD]), .q_i(1'b0), .row_o(lin_row[g*VAL+:VAL]), .gx_o(lin_gx[g*GRAD+:GRAD]), .q_o(unused)

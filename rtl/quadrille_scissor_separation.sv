@@ -26,7 +26,6 @@ module quadrille_scissor_separation #(
 
   // ---- Points at infinity: the direction is (gy, -gx) from a vertex in front of the eye ----------------------------
   logic [4:0] first_behind, crosses, left, up;
-
   assign first_behind = {w_neg_i[2], w_neg_i[3:0]};
   assign crosses = first_behind ^ {w_neg_i[0], w_neg_i[0], w_neg_i[3:1]};
   assign left = gy_neg_i ^ first_behind;
@@ -48,7 +47,6 @@ module quadrille_scissor_separation #(
     logic [4:0] mine_crosses;
     logic [3:0] all_q;  // left of x0, above y0, right of x1, below y1: all vertices so far
     logic [3:0] infinity_q;
-
     assign mine = may & CORNERS[t*4+:4] & ~w_neg_i;
     assign refute_x = mine & (far_i ? left_of : ~left_of);
     assign refute_y = mine & (far_i ? above : ~above);
@@ -71,7 +69,6 @@ module quadrille_scissor_separation #(
   // ---- Edges -------------------------------------------------------------------------------------------------------
   logic [PAIRS-1:0] outside;
   logic [1:0] by_edge_q, by_edge;
-
   assign outside = edge_i & ((negated_i & ~value_neg_i & ~value_zero_i) | (~negated_i & value_neg_i));
   assign by_edge = by_edge_q | {|(outside & triangle_i), |(outside & ~triangle_i)};
 

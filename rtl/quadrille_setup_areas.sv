@@ -17,7 +17,6 @@ module quadrille_setup_areas #(
   logic [AREA-1:0] area_value, area_value2;  // of the first pair of units, of the second
   logic [AREA-1:0] area_012_next, area_023_next;
   logic in_012, in_023, diagonal;
-
   assign area_value = AREA'($signed(value_i[0+:VAL]));
   assign area_value2 = (PAIRS == 1) ? '0 : AREA'($signed(value_i[(PAIRS-1)*VAL+:VAL]));
   assign diagonal = job_group_i == ((PAIRS == 1) ? 3'd4 : 3'd2);

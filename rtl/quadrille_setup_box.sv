@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // Bounding box of a quad and its tiles, while vertex_assembly holds the quad: clamped in the first clock, its tiles in
 // the second. An empty one has zero tiles.
 module quadrille_setup_box #(
@@ -25,7 +24,6 @@ module quadrille_setup_box #(
   logic is_new;
   logic [TC-1:0] first_x, first_y, count_x, count_y;
   logic [TL-1:0] last_column, last_row;
-
   assign is_new = box_state_q == NEW;
 
   quadrille_bounding_range u_range_x (

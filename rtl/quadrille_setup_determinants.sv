@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // The determinants d_012, d_023, d_123, d_013 of quad_setup, a pair of units' own ones one after the other in one
 // accumulator, and behind them the edge functions at the scissor's corners: then the last determinant's sign is kept
 // (kept_*).
@@ -26,7 +25,6 @@ module quadrille_setup_determinants #(
     logic [DET-1:0] det_q;
     logic [DETS-2:0] det_neg_q, det_zero_q;  // of those before the last, the latest at bit 0
     logic det_neg, det_zero, kept_neg_q, kept_zero_q;
-
     assign det_neg = det_q[DET-1];
     assign det_zero = det_q == '0;
     assign corner_neg_o[p] = det_neg;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // The linear functions of quad_setup from their results: value, gradient, what they reach over a tile and a block, tie
 // signs; squared lengths. Those of a complete quad move to the outputs with hand_over_i.
 module quadrille_setup_functions #(
@@ -32,7 +31,6 @@ module quadrille_setup_functions #(
   logic [6*GRAD-1:0] setup_lin_gx, setup_lin_gy;
   logic [4:0] setup_tie_pos, setup_tie_neg;
   logic [5*REACH-1:0] setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block;
-
   assign linear_o = {setup_lin_value, setup_lin_gx, setup_lin_gy};
   assign ties_o = {setup_tie_pos, setup_tie_neg};
   assign reaches_o = {setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block};
@@ -40,7 +38,6 @@ module quadrille_setup_functions #(
   // ---- Gradients of an ordinary quad: differences of coordinates, which wait beside the products --------------------
   // gx = Ty_i - Ty_j, gy = Tx_j - Tx_i, both times 2^FRAC.
   logic [PAIRS*RISE-1:0] apart_x, apart_y;
-
   quadrille_delay_line #(.WIDTH(2 * PAIRS * RISE), .DEPTH(CLOCKS - 1)) u_apart (
       .clk_i, .data_i({products.apart_x, products.apart_y}), .data_o({apart_x, apart_y})
   );
@@ -48,7 +45,6 @@ module quadrille_setup_functions #(
   // ---- Destinations: functions load from few buses -----------------------------------------------------------------
   logic load_gradient, load_reach_q;
   logic [2:0] reach_group_q;
-
   assign load_gradient = gradient_job_i || (edge_job_i && ordinary_job_i);
 
   always_ff @(posedge clk_i) begin
@@ -64,7 +60,6 @@ module quadrille_setup_functions #(
     logic tie_pos, tie_neg;
     logic [REACH-1:0] fall_tile, rise_tile, fall_block, rise_block;
     logic [GRAD-1:0] reach_gx_q, reach_gy_q;
-
     assign result0 = products.result0[p*OUT+:OUT];
     assign result1 = products.result1[p*OUT+:OUT];
     assign value = VAL'(result0);
@@ -92,7 +87,6 @@ module quadrille_setup_functions #(
     localparam int P = g % PAIRS;
     localparam logic [2:0] GROUP = 3'(g / PAIRS);
     logic mine;
-
     assign mine = job_group_i == GROUP || (PAIRS == 1 && g == 3 && job_group_i == 3'd4 && !ordinary_job_i);
 
     always_ff @(posedge clk_i) begin

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // The steps of quad_setup: which jobs a quad has, one for each pair of dot units a clock, and the vertices that they
 // take.
 module quadrille_setup_steps #(
@@ -41,7 +40,6 @@ module quadrille_setup_steps #(
   logic [T-1:0] origin_x, origin_y;
   logic [4*T-1:0] from_origin_x, from_origin_y, tx_q, ty_q;
   logic [4*W-1:0] w_q;
-
   assign origin_x = T'(tile_x0_i) << (quadrille_pkg::TILE_LOG2 + quadrille_pkg::FRAC);
   assign origin_y = T'(tile_y0_i) << (quadrille_pkg::TILE_LOG2 + quadrille_pkg::FRAC);
 
@@ -70,7 +68,6 @@ module quadrille_setup_steps #(
   logic side_far;  // from the corner (x1, y1)
   logic [1:0] side_vertex;
   logic [2:0] group;
-
   assign last_o = step_q == (ordinary_i ? LAST_ORDINARY : state.skip[3] ? LAST_SEPARATE : LAST_TOGETHER);
   assign to_late = PAIRS == 1 && !state.skip[3] && step_q == SIDES - 6'd1;
   assign is_late = PAIRS == 1 && step_q[5:1] == LATE[5:1];
@@ -129,7 +126,6 @@ module quadrille_setup_steps #(
     localparam int P = (g == 2 && PAIRS == 2) ? 1 : 0;
     localparam bit IS_CORNER = g >= 1 && g <= PAIRS;
     logic to_corner, to_one;
-
     assign from_origin_x[g*T+:T] = quad.x[g*T+:T] - origin_x;
     assign from_origin_y[g*T+:T] = quad.y[g*T+:T] - origin_y;
 
@@ -164,7 +160,6 @@ module quadrille_setup_steps #(
 
     for (genvar g = 0; g < 4; g++) begin : gen_word
       localparam int F = (PAIRS == 2 && g == 3 * (1 - p)) ? 4 : g;
-
       assign words[g*EDGE_WIDTH+:EDGE_WIDTH] = {lin_value_i[F*VAL+:VAL], lin_gx_i[F*GRAD+:GRAD],
           lin_gy_i[F*GRAD+:GRAD]};
     end

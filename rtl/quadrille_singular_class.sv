@@ -21,7 +21,6 @@ module quadrille_singular_class #(
 
   for (genvar g = 0; g < 4; g++) begin : gen_sign
     logic a_zero;
-
     assign a_zero = a_i[g*VAL+:VAL] == '0;
     assign a_neg_d[g] = a_i[g*VAL+VAL-1];
     assign a_pos_d[g] = !a_neg_d[g] && !a_zero;
@@ -42,7 +41,6 @@ module quadrille_singular_class #(
   logic [2:1] others;  // inner ones, without the lowest
   logic [3:0] differ;
   logic [1:0] first, second;
-
   assign any_corner = corner_q != 4'd0;
   assign many_corners = (corner_q & (corner_q - 4'd1)) != 4'd0;
   assign any_edge = edge_q != 4'd0;
@@ -60,7 +58,6 @@ module quadrille_singular_class #(
   assign second = others[1] ? 2'd1 : others[2] ? 2'd2 : 2'd3;
 
   logic [CLASS-1:0] word, late_word;
-
   assign word[quadrille_pkg::CLASS_TWO_CORNER] = two_corner;
   assign word[quadrille_pkg::CLASS_ON_VERTEX] = on_vertex;
   assign word[quadrille_pkg::CLASS_TWO_EDGE] = two_edge;

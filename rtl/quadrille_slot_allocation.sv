@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
-
 // Which quad slot the next quad gets, one after the other. A slot is in use from start until its quad leaves the
 // pipeline, or setup drops it: those of dropped quads are free earlier than older ones, so that the next one may be in
 // use.
@@ -20,7 +19,6 @@ module quadrille_slot_allocation #(
   localparam int SLOTS = 1 << SLOT;
   logic [SLOT-1:0] alloc_q;
   logic [SLOTS-1:0] in_use_q;
-
   assign alloc_o = alloc_q;
   assign available_o = !in_use_q[alloc_q];
   assign busy_o = in_use_q != '0;

@@ -24,7 +24,6 @@ module quadrille_sqrt #(
   logic [E-1:0] half;
   logic [3*S+3:0] word;
   logic [DX_BITS-1:0] dx;
-
   assign zero = sig_i == '0;  // its exponent is 0
   assign half = {exp_i[E-1], exp_i[E-1:1]};
   assign word = quadrille_tables_pkg::sqrt_rom({exp_i[0], sig_i[S-2-:K]});
@@ -35,14 +34,12 @@ module quadrille_sqrt #(
   end
 
   logic [S-1:0] poly;
-
   quadrille_table_polynomial #(.SEGMENTS_LOG2(K), .RISING(1'b1)) u_polynomial (
       .clk_i, .word_i(word), .dx_i(dx), .sig_o(poly)
   );
 
   logic zero_q;
   logic [E-1:0] exp_q;
-
   quadrille_delay_line #(.WIDTH(E + 1), .DEPTH(quadrille_pkg::SQRT_STAGES - 1)) u_delay (
       .clk_i, .data_i({zero, half}), .data_o({zero_q, exp_q})
   );

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Coverage of one tile row (a TILE x 1 stamp) a clock: the five edge functions at each pixel, the two clauses in both
 // orientations, culling, the scissor rectangle. Stamps with a covered pixel go to the stamp FIFO, an end entry passes
 // through.
@@ -57,7 +56,6 @@ module quadrille_stamp_coverage #(
   logic [ROOM-1:0] room_q;  // places of the FIFO that no stamp has, nor a row on its way
   logic freed_q, drop;
   logic [TILE-1:0] covered;  // of the row issued two clocks before
-
   assign events_o = {4{quadrille_pkg::PERFORMANCE_COUNTERS != 0}} &
       {issue && !rows_end_q && hidden_i, issue && !rows_end_q && !hidden_i, rows_valid_q, context_valid_q};
   assign issue = rows_valid_q && room_q != '0;
@@ -124,7 +122,6 @@ module quadrille_stamp_coverage #(
     logic [GRAD-1:0] gy_q;
     logic [VAL-1:0] row_value_q;
     logic far, far_q1, far_neg_q1;
-
     assign gx = MULT'($signed(edges.gx[g*GRAD+:GRAD]));
 
     always_ff @(posedge clk_i) begin
@@ -186,7 +183,6 @@ module quadrille_stamp_coverage #(
   logic [TILE_LOG2-1:0] first_dx, end_dx;
   logic row_inside_q1, right_of_first_q1, in_first_q1, left_of_end_q1, in_end_q1;
   logic [TILE-1:0] in_scissor, in_scissor_q2;
-
   assign y = {tile_y_q, row_q};
   assign {first_tile, first_dx} = state.scissor_x0;
   assign {end_tile, end_dx} = state.scissor_x1;
@@ -241,12 +237,10 @@ module quadrille_stamp_coverage #(
   logic [3:0] visible;
   logic [5*TILE-1:0] pos, neg, zero;
   logic [TILE-1:0] back, front, mask, mask_q3, front_q3, tie_q3;
-
   assign {tie_pos, tie_neg, visible} = signs_q2;
 
   for (genvar g = 0; g < 5; g++) begin : gen_sign
     logic [TILE-1:0] is_zero, is_neg;
-
     assign is_zero = is_zero_q2[g*TILE+:TILE];
     assign is_neg = is_neg_q2[g*TILE+:TILE];
     assign zero[g*TILE+:TILE] = is_zero & {TILE{tie_pos[g] || tie_neg[g]}};  // an all-zero edge decides nothing

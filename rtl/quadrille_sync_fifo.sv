@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
-
 // First-in first-out buffer for at most DEPTH words, its output register included: the head and its valid bit are
 // registers, a word is there two clocks after its push. The user knows that there is room: a push beyond, or a pop of
 // nothing, is an error (asserted). Data is not reset.
@@ -24,7 +23,6 @@ module quadrille_sync_fifo #(
   logic [POINTER-1:0] write_q, read_q;
   logic [COUNT-1:0] count_q;  // of words behind the head
   logic valid_q, load;
-
   assign load = count_q != '0 && (!valid_q || pop_i);
   assign valid_o = valid_q;
   assign empty_o = count_q == '0 && !valid_q;

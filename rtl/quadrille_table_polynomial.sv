@@ -31,7 +31,6 @@ module quadrille_table_polynomial #(
   logic [S-1:0] inner_d, inner_q;
   logic [C0_BITS-1:0] c0_q;
   logic [DX_BITS-1:0] dx_q2;
-
   assign inner_d = word_q[S+:S] - S'(((S + DX_BITS)'(word_q[0+:S]) * (S + DX_BITS)'(dx_q1)) >> R);
 
   always_ff @(posedge clk_i) begin
@@ -42,7 +41,6 @@ module quadrille_table_polynomial #(
 
   // Stage 3: outer product.
   logic [C0_BITS-1:0] slope, outer_d, outer_q;
-
   assign slope = C0_BITS'(((S + DX_BITS)'(inner_q) * (S + DX_BITS)'(dx_q2)) >> R);
   assign outer_d = RISING ? c0_q + slope : c0_q - slope;
 
@@ -50,7 +48,6 @@ module quadrille_table_polynomial #(
 
   // Drop the guard bits, clamp.
   logic [S:0] value;
-
   assign value = (S + 1)'(outer_q >> quadrille_pkg::TABLE_GUARD);
   assign sig_o = value[S] ? '1 : !value[S-1] ? {1'b1, (S - 1)'(0)} : value[S-1:0];
 endmodule

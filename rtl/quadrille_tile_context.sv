@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // The quadratic functions of a tile that is hit, from its quad's vertices relative to the tile: value, gx, gy, q of
 // f(dx, dy) = value + dx gx + dy gy + q (dx^2 + dy^2), each without its QDROP lowest bits, written into the tile's
 // entry of the ring as they come.
@@ -52,7 +51,6 @@ module quadrille_tile_context #(
   logic [4*T-1:0] x, y;
   logic [4*W-1:0] w;
   logic [V:0] offset_x, offset_y;
-
   assign jobs_o = {kinds, functions, x, y, w, offset_x, offset_y};
   assign words_o = {word_value_write, word_value_entry, word_value, word_gradient_write, word_gradient_entry, word_gx,
       word_gy, word_q_write, word_q_entry, word_q, word_complete, word_complete_homogeneous};
@@ -76,7 +74,6 @@ module quadrille_tile_context #(
   logic [TC-1:0] column_q, row_q;
   logic [RING-1:0] entry_q;
   logic last, load, complete;
-
   assign last_step = end_q ? LAST_END : homogeneous_q ? LAST_HOMOGENEOUS : LAST_ORDINARY;
   assign last = step_q == last_step;
   assign ready_o = !active_q || last;
@@ -136,7 +133,6 @@ module quadrille_tile_context #(
   logic moved;
   logic [1:0] moved_vertex;
   logic [T-1:0] shift_x, shift_y;  // ONE times the offset
-
   assign offset_x = {column_q, TILE_LOG2'(0)};
   assign offset_y = {row_q, TILE_LOG2'(0)};
   assign shift_x = homogeneous_q ? '0 : T'(offset_x) << FRAC;
@@ -168,7 +164,6 @@ module quadrille_tile_context #(
   logic [3:0] early_function, late_function;
   logic [RING-1:0] early_entry, late_entry;
   logic late_move, late_dot, late_gradient, late_squares;
-
   assign job = {
     {4{job_valid_o}} & {
       kind == quadrille_pkg::MOVE,
@@ -225,7 +220,6 @@ module quadrille_tile_context #(
     logic [OUT-1:0] dot, square;
     logic [T-1:0] early_x, early_y;
     logic [GRAD-1:0] minus_x, minus_y, exact_x, exact_y;
-
     assign dot = products.result0[P*OUT+:OUT];
     assign square = (b % 2 == 0) ? products.result0[SQUARE*OUT+:OUT] : products.result1[SQUARE*OUT+:OUT];
     assign word_value[b*QVAL+:QVAL] = QVAL'((late_dot ? dot : square) >> QDROP);
@@ -241,7 +235,6 @@ module quadrille_tile_context #(
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_curvature
     logic [CURV-1:0] q;
-
     assign q = early_squares ? CURV'(1) << (2 * FRAC) : products.result1[p*OUT+:CURV];
     assign word_q[p*QCURV+:QCURV] = QCURV'(q >> QDROP);
   end

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Ring of tile contexts between the walk and the pixels. Pointers have one extra bit.
 //
 // A tile of an ordinary quad is one entry. One of a homogeneous quad takes HOMOGENEOUS_PARTS: its quadratic functions
@@ -63,7 +62,6 @@ module quadrille_tile_ring #(
   logic [4*quadrille_pkg::QGRAD_BITS-1:0] emit_quad_gx, emit_quad_gy;
   logic [4*quadrille_pkg::QCURV_BITS-1:0] emit_quad_q;
   localparam int ENTRIES = 1 << RING;
-
   assign tag_o = {stamp_end, stamp_homogeneous, stamp_slot, stamp_tile_x, stamp_tile_y, stamp_last_row};
   assign context_o = {emit_slot, emit_tile_x, emit_tile_y, emit_lin_value, emit_quad_value, emit_quad_gx, emit_quad_gy,
       emit_quad_q};
@@ -74,7 +72,6 @@ module quadrille_tile_ring #(
   logic [RING:0] used;
   logic in_parts;  // the entry that comes takes one for each part
   logic [RING-1:0] write_index, fetch_index, load_index, tag_index, emit_index_q, word_index_q;
-
   assign used = write_q - tail_q;
   assign in_parts = homogeneous_i && !end_i;
   assign full_o = used > (in_parts ? (RING + 1)'(ENTRIES) - PARTS : (RING + 1)'(ENTRIES - 1));
@@ -109,7 +106,6 @@ module quadrille_tile_ring #(
   logic [TILE_LOG2-1:0] last_row_q[0:ENTRIES-1];  // coverage's alone
   logic [TAG-1:0] tag_word, fetch_word;
   logic [TC-1:0] tag_tile_x_q, tag_tile_y_q;
-
   assign tag_word = tag_q[tag_index];
   assign fetch_word = tag_q[fetch_index];
   assign fetch_homogeneous_o = fetch_word[TAG-2];
@@ -161,7 +157,6 @@ module quadrille_tile_ring #(
 `ifndef SYNTHESIS
   logic value_valid_q;
   logic [RING:0] value_ptr_q, value_age;  // of the entry whose values emission reads
-
   assign value_age = write_q - value_ptr_q;
 
   always_ff @(posedge clk_i) begin

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_assert.svh"
 `include "quadrille_types.svh"
-
 // Walks a quad's tiles, blocks of 8x8 tiles first, both in serpentine order, and pushes the tiles that may hold a
 // covered pixel into the tile ring. One step a clock, block or tile; after the last block an end entry.
 //
@@ -241,7 +240,6 @@ module quadrille_tile_walk #(
 
   // ---- Extent test -------------------------------------------------------------------------------------------------
   logic [4:0] some_pos_q1, some_neg_q1;
-
   quadrille_walk_values u_values (
       .clk_i, .take_i(take_o), .setup_i, .go_i(go), .in_walk_i(in_walk), .step_block_i(step_block),
       .enter_walk_i(enter_walk), .tile_end_i(tile_end), .row_end_i(row_end_q), .back_i(back_q),
@@ -249,7 +247,6 @@ module quadrille_tile_walk #(
   );
 
   logic back, front;
-
   quadrille_inside_expression u_inside (
       .cull_i(state.cull), .visible_i(visible_q), .pos_i(some_pos_q1), .neg_i(some_neg_q1), .back_o(back),
       .front_o(front)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // From quads to pixels' positions: the walk over a quad's tiles, their quadratic functions, coverage, emission; and
 // what hides a tile.
 module quadrille_tiles #(
@@ -47,7 +46,6 @@ module quadrille_tiles #(
   logic ring_full, context_ready, tile_push, tile_end, tile_homogeneous, tile_hidden, block_hidden;
   logic [quadrille_pkg::TILE_BITS-1:0] tile;
   logic [quadrille_pkg::TEST_BITS-1:0] test;
-
   quadrille_tile_walk u_walk (
       .clk_i, .rst_ni, .state_i, .setup_valid_i, .take_o, .setup_i, .ready_i(context_ready && !ring_full),
       .push_o(tile_push), .end_o(tile_end), .tile_o(tile), .test_o(test), .hidden_i(tile_hidden),
@@ -91,7 +89,6 @@ module quadrille_tiles #(
   logic [quadrille_pkg::ROWS_BITS-1:0] rows;
   logic coverage_wait, tile_masked;
   logic [TILE-1:0] row_seen;
-
   quadrille_stamp_coverage u_coverage (
       .clk_i, .rst_ni, .state_i, .present_i(stamp_present), .fetch_o(fetch), .fetch_ptr_o(fetch_ptr),
       .fetch_homogeneous_i(fetch_homogeneous), .tag_i, .load_o(stamp_load_o), .load_ptr_o(load_ptr),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i or drop_i
 // clears it, in whose clock the next quad's first beat is taken. flush_i discards the beats of a quad of which fewer
 // than four came before, and one that comes with it.
@@ -43,7 +42,6 @@ module quadrille_vertex_assembly #(
   logic [quadrille_pkg::CORNER_DEPTH_BITS-1:0] depth_low, depth_high;
   logic [1:0] count_q;
   logic full_q, accept;
-
   assign accept = vertex_valid_i && vertex_ready_o;
   assign vertex_ready_o = !full_q || start_i || drop_i;
   assign full_o = full_q;
@@ -65,7 +63,6 @@ module quadrille_vertex_assembly #(
 
   localparam logic [W-1:0] ONE = W'(1) << quadrille_pkg::FRAC;
   logic first;
-
   assign first = count_q == 2'd0;
 
   always_ff @(posedge clk_i) begin
@@ -86,7 +83,6 @@ module quadrille_vertex_assembly #(
   end
 
   logic empty_x, empty_y;
-
   assign empty_o = empty_x || empty_y;
 
   quadrille_range_empty u_empty_x (
@@ -105,7 +101,6 @@ module quadrille_vertex_assembly #(
   logic [W-1:0] w_magnitude;
   logic [E-1:0] w_exp;
   logic [S-1:0] w_sig;
-
   assign w_neg = vertex.w[W-1];
   assign w_magnitude = w_neg ? W'(0) - vertex.w : vertex.w;
 

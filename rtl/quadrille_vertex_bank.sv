@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // What a pixel needs to know of its quad, by slot: written at start id, k_eff (k, or W without perspective), W, Z,
 // attributes as significand numbers with port exponents, bases, depth limits; when the walk takes the quad squared
 // lengths and class.
@@ -49,13 +48,11 @@ module quadrille_vertex_bank #(
   logic [DB:0] base_depth;
   logic [LIMITS-1:0] base_limits;
   logic [quadrille_pkg::QUAD_ID_BITS-1:0] output_id;
-
   assign terms_o = {length2, norm_plane, product_k_neg, product_k_exp, product_k_sig, override_k_exp, override_k_sig,
       blend_neg, blend_exp, blend_sig, base_attr, base_depth, base_limits, output_id, output_hull, output_homogeneous};
 
   // k_eff divides the attributes; W divides Z and says, of a quad whose hull holds the eye, what is behind it.
   logic hold, blend_hull;
-
   assign hold = state.skip[4];
   assign sum_active_o[0] = !hold || state.attributes != '0;
   assign sum_active_o[1] = !hold || state.depth || blend_hull;
@@ -81,7 +78,6 @@ module quadrille_vertex_bank #(
     logic k_neg;
     logic [PE-1:0] k_exp;
     logic [S-1:0] k_sig;
-
     assign k_neg = state.perspective ? 1'b0 : quad.w_neg[v];
     assign k_exp = state.perspective ? quad.k_exp[v*PE+:PE] : quad.w_exp[v*PE+:PE];
     assign k_sig = state.perspective ? quad.k_sig[v*S+:S] : quad.w_sig[v*S+:S];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a
 // clock for each of PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's
 // other registers.
@@ -44,7 +43,6 @@ module quadrille_vertex_products #(
   logic [PAIRS*T-1:0] all_xi, all_yi, all_xj, all_yj;
   logic [PAIRS*RISE-1:0] all_apart_x, all_apart_y;
   logic [PAIRS*OUT-1:0] result0, result1;
-
   assign products_o = {all_xi, all_yi, all_xj, all_yj, all_apart_x, all_apart_y, result0, result1};
 
   assign x = tile_valid_i ? tile.x : setup.x;
@@ -63,7 +61,6 @@ module quadrille_vertex_products #(
     logic [2:0] kind;
     logic [63:0] edge_value, edge_gx, edge_gy;
     logic [RISE-1:0] apart_x_d, apart_y_d;
-
     assign function_d = tile_valid_i ? tile.functions[p*4+:4] : setup.functions[p*4+:4];
 
     quadrille_setup_pair u_pair (
@@ -91,7 +88,6 @@ module quadrille_vertex_products #(
     // ---- Operands --------------------------------------------------------------------------------------------------
     logic [DOT-1:0] x_i, x_j, y_i, y_j, w_i, w_j, apart_x, apart_y, a0, b0, c0, d0, a1, b1, c1, d1;
     logic subtract0, subtract1;
-
     assign x_i = DOT'($signed(xi));
     assign x_j = DOT'($signed(xj));
     assign y_i = DOT'($signed(yi));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-
 // The linear functions of tile_walk at the first pixel of its block and of its tile, and the extent test: is an edge
 // function somewhere positive, somewhere negative.
 module quadrille_walk_values #(
@@ -27,7 +26,6 @@ module quadrille_walk_values #(
   for (genvar g = 0; g < 6; g++) begin : gen_linear
     logic [GRAD-1:0] gx_q, gy_q;
     logic [VAL-1:0] block_q, tile_q, slope, move, next;
-
     assign slope = VAL'($signed(row_end_i ? gy_q : gx_q));
     assign move = (in_walk_i ? slope << TL : slope << BL) ^ {VAL{back_i}};
     assign next = VAL'(({tile_q, 1'b1} + {move, back_i}) >> 1);

@@ -28,7 +28,6 @@ module quadrille_weight_factors #(
   logic [1:0] first, second;
   logic [4*F-1:0] k;
   logic [F-1:0] first_k, second_k;  // of the two corners
-
   assign two_corner = class_i[quadrille_pkg::CLASS_TWO_CORNER];
   assign on_vertex = class_i[quadrille_pkg::CLASS_ON_VERTEX];
   assign two_edge = class_i[quadrille_pkg::CLASS_TWO_EDGE];
@@ -49,7 +48,6 @@ module quadrille_weight_factors #(
     logic own_edge, edge_before;  // edge g, edge g-1 is one of the two
     logic n_of_first;  // the denominator for corner g is the first edge's
     logic [F-1:0] x_d, y_d, z_d;
-
     assign is_first = first == 2'(g);
     assign is_second = second == 2'(g);
     assign own_edge = is_first || is_second;
