@@ -13,7 +13,7 @@ echo "Building the wheel: about two minutes on two cores, the first time"
 "$folder/environment/bin/pip" wheel -q --no-deps -w "$folder/wheel" -C "build.targets=quadrille_python;python_draw_time" "$root"
 "$folder/environment/bin/pip" install -q "$folder"/wheel/quadrille-*.whl -r model/python/tests/requirements.txt
 export QUADRILLE_DRAW_TIME
-QUADRILLE_DRAW_TIME=$(echo "$folder"/cp*/model/python/python_draw_time)
+QUADRILLE_DRAW_TIME=$(ls -t "$folder"/cp*/model/python/python_draw_time | head -n 1)
 echo "Build: $SECONDS s"
 cmake -S model/python/tests -B "$folder/tests" -DPYTHON="$folder/environment/bin/python" >"$folder/tests.log" ||
   { cat "$folder/tests.log" >&2; exit 1; }
