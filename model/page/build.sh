@@ -1,24 +1,30 @@
 #!/usr/bin/env bash
 # Builds the page: build.sh OUTPUT. The tools of PyPI and npm, and the module's own build, go into build/ of the tree.
+# Exit status: 0 done, 1 a step failed, 3 a missing tool.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 output=${1:?usage: build.sh OUTPUT}
 tools=$root/build/page-tools
+for tool in python3 npm cmake ninja; do
+  command -v "$tool" >/dev/null || { echo "page: $tool is missing; scripts/test.sh --page installs it" >&2; exit 3; }
+done
 mkdir -p "$tools"
 
 # Python packages: the compiler.
-if ! "$tools/venv/bin/python" -c 'import ziglang' 2>/dev/null; then
+if ! cmp -s "$here/requirements.txt" "$tools/requirements.txt"; then
   python3 -m venv "$tools/venv"
   "$tools/venv/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
+  cp "$here/requirements.txt" "$tools/"
 fi
 zig=$(echo "$tools"/venv/lib/python3*/site-packages/ziglang/zig)
 export ZIG_GLOBAL_CACHE_DIR=$tools/zig-cache ZIG_LOCAL_CACHE_DIR=$tools/zig-cache
 
 # npm packages, of the lock file alone.
-if ! cmp -s "$here/package-lock.json" "$tools/package-lock.json" || [ ! -d "$tools/node_modules/esbuild" ]; then
+if ! cmp -s "$here/package-lock.json" "$tools/installed.json"; then
   cp "$here/package.json" "$here/package-lock.json" "$tools/"
   npm ci --prefix "$tools" --no-audit --no-fund --loglevel=error
+  cp "$here/package-lock.json" "$tools/installed.json"
 fi
 
 module=$root/build/page-wasm

@@ -275,6 +275,7 @@ View draw_view(const Drawing& drawing) {
   if (view == "fp32") return by_reference<golden::PaperFp32Quad>(drawing);
   if (view == "error") return error_view(drawing);
   if (view == "coverage") return coverage_view(drawing);
+  if (view == "tiles") return tiles_view(drawing);
   if (view == "clocks") return clocks_view(drawing);
   return by_method(drawing, view);
 }

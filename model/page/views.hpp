@@ -14,8 +14,10 @@ struct View {
   std::string json;  ///< what a legend tells
 };
 
-/// By Request::view: exact, fp32, error, coverage, clocks, tiles, or a method of the papers (golden/methods). Throws
+/// By Request::view: exact, fp32, error, coverage, tiles, clocks, or a method of the papers (golden/methods). Throws
 /// std::invalid_argument for any other.
 View draw_view(const Drawing& drawing);
+/// What the walk makes of each tile: left out with its block, left out by itself, entered in vain, drawn.
+View tiles_view(const Drawing& drawing);
 
 }  // namespace quadrille::page

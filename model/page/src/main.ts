@@ -131,6 +131,8 @@ const configure = new Latest(machine, "configuration", (answer) => {
 });
 
 let address_timer = 0;
+/** As the page wrote or read it. */
+let address = location.hash;
 function show_state() {
   draw.ask(request_text(state));
   configure.ask(config_of(state).map(([key, value]) => `${key}=${value}`).join("\n"));
@@ -155,7 +157,11 @@ function show_state() {
   element("beside_figure").parentElement!.classList.toggle("one", view === "");
   // Browsers allow few changes of an address a second.
   clearTimeout(address_timer);
-  address_timer = window.setTimeout(() => history.replaceState(null, "", state_text(state)), 200);
+  address_timer = window.setTimeout(() => {
+    if (location.hash !== address) return;  // somebody typed another, which is about to be read
+    history.replaceState(null, "", state_text(state));
+    address = location.hash;
+  }, 200);
 }
 
 /** Sets keys, removes those with null. */
@@ -275,7 +281,8 @@ function listen() {
   on_click("save_quads", async () => save("page.quads", await quads_text(), "text/plain"));
   on_click("save_toml", () => save("page.toml", toml_text(state), "text/plain"));
   window.addEventListener("hashchange", () => {
-    state = parse_state(location.hash);
+    address = location.hash;
+    state = parse_state(address);
     show_state();
   });
 }

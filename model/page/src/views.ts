@@ -14,12 +14,13 @@ export const views: [string, string][] = [
   ["adaptive", "adaptive subdivision"],
   ["fp32", "paper's formulas in fp32"],
   ["coverage", "coverage, ties and notches"],
+  ["tiles", "tiles by what became of them"],
   ["clocks", "clock of each pixel"],
   ["machine", "the machine, clock by clock"],
 ];
 
 /** Those that are pictures of the same quads, and so may be compared by colour. */
-export const is_picture = (view: string) => !["", "error", "coverage", "clocks", "machine", "front"].includes(view);
+export const is_picture = (view: string) => !["", "error", "coverage", "tiles", "clocks", "machine"].includes(view);
 
 export function legend(view: string, result: Record<string, unknown>): [string, string][] {
   const count = (name: string) => (result[name] as number).toLocaleString("en");
@@ -41,6 +42,13 @@ export function legend(view: string, result: Record<string, unknown>): [string, 
         ["#cc79a7", `on an edge ${count("on_edge")}`],
         ["#d55e00", `on a corner ${count("on_vertex")}`],
         ["#ffffff", `decided as a tie ${count("ties")}`],
+      ];
+    case "tiles":
+      return [
+        ["#57575c", `left out with its block ${count("block_left_out")}`],
+        ["#57b5e8", `left out by itself ${count("left_out")}`],
+        ["#d65e00", `entered in vain ${count("empty")}`],
+        ["#0073b3", `drawn ${count("drawn")}`],
       ];
     case "clocks": {
       const fragments = result.fragments as number, clocks = result.clocks as number;

@@ -89,7 +89,8 @@ test("each comparison draws, within 2 seconds of a processor for one quad", asyn
     const seconds = (await watched.worker_seconds()) - before;
     assert.equal(error, undefined, view);
     const drawn = 512 * 512 - ground;
-    assert.ok(drawn > 90000 && drawn < 110000, `${view}: ${drawn} pixels`);
+    // Tiles are whole, and those around the quad are shown too.
+    assert.ok(drawn > 90000 && drawn < (view === "tiles" ? 150000 : 110000), `${view}: ${drawn} pixels`);
     console.log(`${view}: ${seconds.toFixed(2)} s`);
     assert.ok(seconds < 2, `${view}: ${seconds} s`);
   }

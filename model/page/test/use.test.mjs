@@ -203,6 +203,17 @@ test("the machine clock by clock takes the program's clocks, more with stalls", 
   assert.equal(stalled.fragments, done.fragments);
 });
 
+test("tiles are left out and entered as the program counts", async () => {
+  for (const scene of ["fig8_behind", "fig9_h", "fig10_crossed"]) {
+    const { result } = await page.evaluate((name) => window.quadrille.call("view", `scene=${name}\nview=tiles`), scene);
+    const { stdout } = await run(program, ["fragments", "--scene", scene, "--json", "-", "--out", "/dev/null", "--quiet"]);
+    const { counters } = JSON.parse(stdout);
+    assert.equal(result.empty + result.drawn, counters.tiles_entered, scene);
+    assert.equal(result.left_out + result.empty + result.drawn, counters.tiles_tested, scene);
+    assert.ok(result.left_out > 0 && result.drawn > 0);
+  }
+});
+
 test("a picture of one's own is the texture, and stays here", async () => {
   const before = await picture();
   const png = await page.evaluate(() => {
