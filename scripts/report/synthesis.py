@@ -123,8 +123,7 @@ class Machine:
         if top not in self.units:
             raise InputError(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.units))}")
         chparam = "".join(f" -chparam {name} {value}" for name, value in parameters)
-        # With its parameters behind it, in capitals, or with their hash before it.
-        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}?[A-Z]*" for unit in (*UNITS, *SHARED))
+        kept = " ".join(f"*{module_name(unit)}*" for unit in (*UNITS, *SHARED))  # no module's name begins with another's
         return f"{self.read}hierarchy -check -top {module_name(top)}{chparam}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
 
     def yosys(self, script, stem):
