@@ -21,10 +21,11 @@ import tomllib
 PROGRAM, ROOT = os.path.abspath(sys.argv[1]), pathlib.Path(__file__).resolve().parent.parent
 PAGES = {p: p.read_text(encoding="utf-8") for p in sorted(ROOT.rglob("*.md")) if p.relative_to(ROOT).parts[0] != "build"}
 LINES = {"README.md": 120, "tb/DECIDE.md": 120, "rtl/INTEGRATE.md": 120, "golden/EXPLORE.md": 120, "rtl/REJECTED.md": 100}
-COLUMNS, README_LINES, WORDS, APART = 120, 200, 27_000, ("rtl/SPEC.md", "golden/CHANGELOG.md", "model/python/README.md")
+COLUMNS, README_LINES, WORDS, APART = 120, 200, 27_000, ("rtl/SPEC.md", "golden/CHANGELOG.md", "golden/explain/README.md",
+                                               "model/python/README.md")
 INPUT = "--scene bowtie --size 16x16"
 RUNS = f"""config --json @.json|scenes --json @.json|scenes --corner --json @.json|scenes --stress --json @.json|cache --json @.json
-fragments {INPUT} --out @.csv|fragments {INPUT} --errors --out @.csv --json @.json|render {INPUT} --png @.png --json @.json
+explain {INPUT} --pixel 3,2 --json @.json|fragments {INPUT} --out @.csv|fragments {INPUT} --errors --out @.csv --json @.json|render {INPUT} --png @.png --json @.json
 render --mesh {ROOT}/golden/examples/box.obj --size 16x16 --png @.png --save-camera @.json|bench --no-rtl --repeat 1 --fragments 1000 --json @.json
 bench --error --no-rtl --repeat 1 {INPUT} --json @.json|bench --skips --no-rtl --repeat 1 {INPUT} --json @.json
 compare {INPUT} --methods mvc --reference mvc --repeats 1 --crease-sizes 16 --out @|stress --families sliver --count 1 --csv @.csv --json @.json
@@ -78,10 +79,11 @@ def names_in(pieces):
 
 
 def keys_of(value):
-    """Names of fields; a key with another sign is a name of data."""
+    """Names of fields; a key with another sign, or in a record of a boundary (`explain`), is a name of data."""
     if isinstance(value, dict):
         yield from (re.sub(r"_\d+$", "_N", key) for key in value if re.fullmatch(r"[A-Za-z]\w*", key))
-    for child in value.values() if isinstance(value, dict) else value if isinstance(value, list) else ():
+    inside = [v for k, v in value.items() if k not in ("stored", "other")] if isinstance(value, dict) else value
+    for child in inside if isinstance(value, (dict, list)) else ():
         yield from keys_of(child)
 
 

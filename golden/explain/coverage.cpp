@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace quadrille::explain {
 namespace {
@@ -79,7 +80,7 @@ std::string holds_text(const Explanation& e, const Clause& c) {
 }
 
 /// The clause with the fewest terms that fail, and these.
-std::string outside_text(const Explanation& e, double& missed_by) {
+std::string outside_text(const Explanation& e) {
   const Clause* nearest = nullptr;
   std::vector<std::string> why;
   double least = 0;
@@ -106,11 +107,29 @@ std::string outside_text(const Explanation& e, double& missed_by) {
     why = failing;
     least = far;
   }
-  missed_by = least;
   std::string text = "no clause of expression (12) holds. Nearest is the ";
   text += std::string(ordinal(nearest->number)) + (nearest->sign < 0 ? ", negated (front face): " : " (back face): ");
   for (std::size_t i = 0; i < why.size(); ++i) text += (i == 0 ? "" : "; ") + why[i];
   return text;
+}
+
+/// Of the pixel centre from the quad's outline on the screen; infinite where a corner is not in front of the eye.
+double distance_to(const SnappedQuad& quad, int px, int py) {
+  std::array<double, 4> x, y;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const SnappedVertex& v = quad.vertex[i];
+    if (v.w <= 0) return std::numeric_limits<double>::infinity();
+    x[i] = static_cast<double>(v.x) / v.w - px;
+    y[i] = static_cast<double>(v.y) / v.w - py;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) % 4;
+    const double dx = x[j] - x[i], dy = y[j] - y[i], length2 = dx * dx + dy * dy;
+    const double t = length2 > 0 ? std::clamp(-(x[i] * dx + y[i] * dy) / length2, 0.0, 1.0) : 0;
+    least = std::min(least, std::hypot(x[i] + t * dx, y[i] + t * dy));
+  }
+  return least;
 }
 
 std::string reject_text(QuadReject reject) {
@@ -157,7 +176,10 @@ void explain_coverage(const Subject& s, Explanation& out) {
   out.reject = quad_reject(s.snapped, s.config(), state);
   if (out.reject != QuadReject::none)
     return decide(Outcome::left_out, "the whole quad is left out: " + reject_text(out.reject));
-  if (!clause) return decide(Outcome::outside, outside_text(out, out.missed_by));
+  if (!clause) {
+    out.missed_by = distance_to(s.snapped, out.x, out.y);
+    return decide(Outcome::outside, outside_text(out));
+  }
   const std::string holds = holds_text(out, *clause);
   if ((s.machine.setup.visible >> clause->bit() & 1) == 0)
     return decide(Outcome::behind_eye, holds + "; but that part of the quad is behind the eye: triangle " +

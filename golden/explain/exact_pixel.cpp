@@ -8,7 +8,8 @@
 #include <cstdio>
 
 #if __LDBL_MANT_DIG__ != 113
-#include <quadmath.h>
+// Of GCC's libquadmath; Clang does not find its header.
+extern "C" int quadmath_snprintf(char* text, std::size_t size, const char* format, ...);
 #endif
 
 namespace quadrille::explain {

@@ -99,7 +99,7 @@ struct Explanation {
   Outcome outcome = Outcome::outside;
   QuadReject reject = QuadReject::none;  ///< of left_out
   std::string why;                       ///< a sentence: the rule that covered the pixel or rejected it
-  double missed_by = 0;                  ///< of outside: px that the pixel would have to move, about
+  double missed_by = 0;                  ///< of outside: px from the quad's outline; infinite if some w <= 0
   bool seen = false;                     ///< nearest of the fragments at the pixel (depth test LESS), or the only one
 
   bool homogeneous = false;

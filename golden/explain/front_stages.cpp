@@ -161,7 +161,7 @@ Stage setup_stage(const Subject& s) {
                "            = value + dx gx + dy gy, at dx columns and dy rows from pixel (" +
                    std::to_string(setup.tile_x0 << s.config().tile_log2) + ", " +
                    std::to_string(setup.tile_y0 << s.config().tile_log2) + ")"},
-              "Hormann & Tarini, section 4.2: A_i, and E_20 of expression (12)",
+              "Hormann & Tarini, section 4.1: the edge functions of expression (12)",
               {},
               {},
               {}};
@@ -192,7 +192,7 @@ Stage tile_stage(const Subject& s) {
               {"f(dx, dy) = value + dx gx + dy gy + q (dx² + dy²), from pixel (" + std::to_string(x) + ", " +
                    std::to_string(y) + ")",
                "D_ij = S_i · S_j and R²_i = |S_i|²"},
-              "Hormann & Tarini, section 4.2",
+              "Hormann & Tarini, section 4.2: D_i, and the squares of r_i",
               {},
               {},
               {}};
@@ -224,7 +224,8 @@ Stage stamp_stage(const Subject& s) {
               {},
               {},
               {}};
-  stage.remarks.push_back("This pixel is bit " + std::to_string(dx) + " of each mask.");
+  stage.remarks.push_back("A mask has a bit for each pixel of the row, the first at the right end. This pixel is bit " +
+                          std::to_string(dx) + ".");
   const StampEntry stamp{false, 0, row, s.machine.row.mask, s.machine.row.front, s.machine.row.tie};
   for (Draft& d : drafts_of([&](auto& f) { visit(stamp, s.config(), f); })) {
     if (d.stem == "end_token" || d.stem == "tile_ptr") continue;

@@ -11,9 +11,9 @@ namespace {
 
 // Colours follow the reader's system; below 620 px a row of a table becomes a block of its own.
 constexpr std::string_view style = R"css(
-:root { color-scheme: light dark; --line: #d0d0d0; --soft: #666; --mark: #1f5fa8; --fill: #e3ecf7; --bad: #a11; --page: #fff; --text: #1a1a1a }
+:root { color-scheme: light dark; --line: #d0d0d0; --soft: #666; --mark: #1f5fa8; --fill: #e3ecf7; --bar: #a9c8ef; --bad: #a11; --page: #fff; --text: #1a1a1a }
 @media (prefers-color-scheme: dark) {
-  :root { --line: #444; --soft: #aaa; --mark: #8ab8f0; --fill: #223044; --bad: #ff8a80; --page: #161616; --text: #e8e8e8 }
+  :root { --line: #444; --soft: #aaa; --mark: #8ab8f0; --fill: #223044; --bar: #3a5f94; --bad: #ff8a80; --page: #161616; --text: #e8e8e8 }
 }
 * { box-sizing: border-box }
 body { margin: 0 auto; max-width: 62rem; padding: 1rem; background: var(--page); color: var(--text);
@@ -31,7 +31,7 @@ summary { cursor: pointer; padding: .45rem 0; font-weight: 600 } summary .soft {
 table { border-collapse: collapse; width: 100%; margin: .5rem 0 .8rem }
 td, th { text-align: right; padding: .12rem .5rem; border-bottom: 1px solid var(--line); vertical-align: top }
 td:first-child, th:first-child, td.left, th.left { text-align: left } th { color: var(--soft); font-weight: normal }
-.share { background: linear-gradient(to left, var(--fill) var(--part), transparent 0) }
+.share { background: linear-gradient(to left, var(--bar) var(--part), transparent 0) }
 @media (max-width: 620px) {
   body { padding: .6rem } thead { display: none } tr { display: block; border-bottom: 1px solid var(--line); padding: .25rem 0 }
   td { display: flex; justify-content: space-between; gap: 1rem; border: 0; padding: 0 .2rem; text-align: right }
@@ -74,34 +74,35 @@ std::string list_of(const std::vector<std::string>& items) {
   return out + "</ul>\n";
 }
 
-std::string number_row(const Number& n) {
+/// `beside`: with the columns of exact numbers; `given`: with that of corners as given.
+std::string number_row(const Number& n, bool beside, bool given) {
   std::string fields;
   for (const Field& field : n.stored) fields += (fields.empty() ? "" : ", ") + field.label() + " = " + field.text();
-  const bool integer = n.format == Number::Format::integer;
-  std::string out = "<tr><td title=\"" + escaped(n.meaning + (n.meaning.empty() ? "" : ". ") + fields) + "\">" +
-                    escaped(n.name) + "</td>";
-  out += cell(stored_text(n, n.stored), "stored");
-  out += cell(n.unused  ? "not needed"
-              : integer ? ""
-                        : real_text(n.value) + (n.unit.empty() ? "" : " " + n.unit),
-              "value");
-  out += cell(exact_text(n), "exact", n.exact ? " title=\"" + n.exact_digits + "\"" : "");
-  out += cell(ulp_text(n), "error, ulp");
-  const double part = n.of_bound ? std::min(*n.of_bound, 1.0) : 0;
-  out += cell(bound_text(n), "of bound",
-              n.of_bound ? std::string(" class=\"share") + (*n.of_bound > 1 ? " bad" : "") +
-                               "\" style=\"--part: " + fixed(100 * part, 1) + "%\""
-                         : "");
+  const std::string about = escaped(n.meaning + (n.meaning.empty() ? "" : ". ") + fields);
+  std::string out = "<tr><td title=\"" + about + "\">" + escaped(n.name) + "</td>";
+  out += cell(stored_text(n, n.stored), "stored") + cell(value_text(n), "value");
+  if (beside) {
+    out += cell(exact_text(n), "exact", n.exact ? " title=\"" + n.exact_digits + "\"" : "");
+    out += cell(ulp_text(n), "error, ulp");
+    std::string bar;
+    if (n.of_bound)
+      bar = std::string(" class=\"share") + (*n.of_bound > 1 ? " bad" : "") +
+            "\" style=\"--part: " + fixed(100 * std::min(*n.of_bound, 1.0), 1) + "%\"";
+    out += cell(bound_text(n), "of bound", bar);
+  }
+  if (given) out += cell(n.given ? real_text(*n.given) : "", "unsnapped");
   out += "</tr>\n";
   if (n.differs)
     out += "<tr><td class=\"bad\">" + escaped(n.name) + " by the RTL</td>" +
-           cell(stored_text(n, n.other), "stored", " class=\"bad\"") + "<td></td><td></td><td></td><td></td></tr>\n";
+           cell(stored_text(n, n.other), "stored", " class=\"bad\"") + "</tr>\n";
   return out;
 }
 
 std::string stage_section(const Stage& s, std::size_t place) {
   double worst = 0;
-  bool any = false, differs = s.compared == Stage::Compared::differs;
+  bool any = false;  // a number has an exact one beside it
+  const bool given = std::ranges::any_of(s.numbers, [](const Number& n) { return n.given.has_value(); });
+  const bool differs = s.compared == Stage::Compared::differs;
   for (const Number& n : s.numbers)
     if (n.exact) any = true, worst = std::max(worst, std::fabs(n.error_ulp));
   const bool open = differs || s.name == "stamp" || s.name == "weight" || s.name == "fragment" || s.name == "lambda";
@@ -119,10 +120,11 @@ std::string stage_section(const Stage& s, std::size_t place) {
     source += (source.empty() ? "" : ". ") + std::string("RTL: <code>") + escaped(s.unit) + "</code>";
   if (!source.empty()) out += "<p class=\"soft\">" + source + "</p>\n";
   out += list_of(s.remarks);
-  out +=
-      "<table><thead><tr><th></th><th>stored</th><th>value</th><th>exact</th><th>error, ulp</th><th>of "
-      "bound</th></tr></thead>\n<tbody>\n";
-  for (const Number& n : s.numbers) out += number_row(n);
+  out += "<table><thead><tr><th></th><th>stored</th><th>value</th>";
+  if (any) out += "<th>exact</th><th>error, ulp</th><th>of bound</th>";
+  if (given) out += "<th>unsnapped</th>";
+  out += "</tr></thead>\n<tbody>\n";
+  for (const Number& n : s.numbers) out += number_row(n, any, given);
   return out + "</tbody></table></details>\n";
 }
 
@@ -174,7 +176,7 @@ std::string drawing(const Explanation& e) {
 std::string quad_section(const Explanation& e, bool first) {
   std::string out = std::string("<h2") + (first ? " class=\"first\"" : "") + ">" + escaped(headline(e)) +
                     "</h2>\n<div class=\"quad\"><div>\n";
-  out += "<p>" + escaped(e.why) + ".</p>\n";
+  out += "<p>" + escaped(sentence(e.why)) + "</p>\n";
   if (e.outcome == Outcome::refused) return out + "</div></div>\n";
   if (e.covered()) {
     out += "<p>The pixel centre is " + e.place + ".";
@@ -185,7 +187,9 @@ std::string quad_section(const Explanation& e, bool first) {
     }
     out += "</p>\n";
   }
-  out += list_of(e.remarks);
+  std::vector<std::string> remarks;
+  for (const std::string& remark : e.remarks) remarks.push_back(sentence(remark));
+  out += list_of(remarks);
   out +=
       "<table><thead><tr><th class=\"left\">edge function</th><th>at the pixel, px²</th><th>px from its line</th><th "
       "class=\"left\">counts as</th></tr></thead>\n<tbody>\n";
@@ -212,9 +216,11 @@ std::string to_html(std::span<const Explanation> explanations, const std::string
   out += style;
   out += "</style></head><body>\n<h1>" + escaped(title) + "</h1>\n";
   if (!command.empty()) out += "<p><code>" + escaped(command) + "</code></p>\n";
+  out += "<p class=\"soft\">" + escaped(legend) + "</p>\n";
   std::size_t shown = 0;
-  for (const Explanation& e : explanations)
-    if (e.covered() || explanations.size() == 1) out += quad_section(e, shown++ == 0);
+  for (const bool seen : {true, false})
+    for (const Explanation& e : explanations)
+      if (e.seen == seen && (e.covered() || explanations.size() == 1)) out += quad_section(e, shown++ == 0);
   if (shown == 0) out += "<p>No quad covers this pixel.</p>\n";
   if (explanations.size() > 1) {
     const std::string others = summary(explanations);
@@ -222,8 +228,7 @@ std::string to_html(std::span<const Explanation> explanations, const std::string
       out += "<h2>" + std::string(shown == 0 ? "Why not" : "The other quads") + "</h2>\n<div class=\"formula\">" +
              escaped(others) + "</div>\n";
   }
-  out += "<p class=\"soft\">" + escaped(legend) + "</p>\n</body></html>\n";
-  return out;
+  return out + "</body></html>\n";
 }
 
 }  // namespace quadrille::explain

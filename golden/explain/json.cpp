@@ -147,6 +147,7 @@ std::string to_json(const Explanation& e) {
   w.key("outcome"), w.string(outcome_name(e.outcome));
   w.key("reject"), w.string(rejects[static_cast<std::size_t>(e.reject)]);
   w.key("why"), w.string(e.why);
+  w.key("missed_by"), w.number(e.outcome == Outcome::outside ? std::optional(e.missed_by) : std::nullopt);
   w.key("seen"), w.boolean(e.seen);
   w.key("homogeneous"), w.boolean(e.homogeneous);
   w.key("clause"), w.raw(std::to_string(e.clause));

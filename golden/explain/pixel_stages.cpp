@@ -3,11 +3,13 @@
 #include "golden/explain/stages.hpp"
 #include "golden/reference/float128.hpp"
 #include "golden/reference/port_number.hpp"
+#include "model/pixel/root_ratio.hpp"
 #include "model/port/boundaries.hpp"
 #include "model/port/snap.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace quadrille::explain {
 namespace {
@@ -34,7 +36,7 @@ class PixelStages {
         {"A_ij = S_i × S_j, D_ij = S_i · S_j, R²_i = |S_i|², with S_i = (X_i - W_i x, Y_i - W_i y)",
          s_.machine.setup.homogeneous ? "from the tile's functions"
                                       : "A and R² from the tile's functions; D_ij = (R²_i + R²_j - |V_i - V_j|²) / 2"},
-        "Hormann & Tarini, section 4.2",
+        "Hormann & Tarini, section 4.2: A_i, D_i, and the squares of r_i",
         {},
         {},
         {}};
@@ -51,16 +53,17 @@ class PixelStages {
   }
 
   Stage significands() const {
-    Stage stage{"norm",
-                "Their leading " + std::to_string(c_.significand_bits) + " bits; which special case the pixel is",
-                "normalise, singular_class",
-                "norm",
-                {"number = ± sig · 2^(exp - " + std::to_string(c_.significand_bits - 1) + "), the rest is cut off",
-                 "corner: R² = 0. On an edge: A = 0 and D < 0"},
-                "",
-                {},
-                {},
-                {}};
+    Stage stage{
+        "norm",
+        "The leading " + std::to_string(c_.significand_bits) + " bits of A, D and R²; which special case the pixel is",
+        "normalise, singular_class",
+        "norm",
+        {"number = ± sig · 2^(exp - " + std::to_string(c_.significand_bits - 1) + "), the rest is cut off",
+         "corner: R² = 0. On an edge: A = 0 and D < 0"},
+        "",
+        {},
+        {},
+        {}};
     const auto unit = std::ldexp(1.0, -c_.quadratic_frac());
     each(Boundary::norm, stage, [&](Draft& d, std::size_t i) {
       if (d.stem == "a")
@@ -85,7 +88,7 @@ class PixelStages {
                 "sqrt",
                 "sqrt",
                 {"r_i = sqrt(R²_i), from a table of quadratics"},
-                "Hormann & Tarini, section 3",
+                "Hormann & Tarini, section 3: r_i",
                 {},
                 {},
                 {}};
@@ -106,7 +109,7 @@ class PixelStages {
                 "ratio",
                 {"u = r_i r_j + |D_ij|, v = |A_ij|",
                  "|tan(α_ij/2)| = |r_i r_j - D| / |A| = v/u if D >= 0, u/v if D < 0: no difference of like numbers"},
-                "Hormann & Tarini, eq. (8): t_i",
+                "Hormann & Tarini, section 4.2: tan(α_i/2)",
                 {},
                 {},
                 {}};
@@ -137,6 +140,14 @@ class PixelStages {
           "M_0 : M_1 : M_2 : M_3 = a b c : a : c : b", "a = sqrt(q23/q01), b = sqrt(q12/q30), c = sqrt(q13/q20)",
           "q_ij = r_i r_j + D_ij of an edge, r_i r_j - D_ij of a diagonal: u, or v²/u where it would cancel"};
       stage.source = "Hormann & Tarini, eq. (8): M_i = (t_{i-1} + t_i) / R_i, multiplied out";
+      const auto ratio = [&](std::size_t near, std::size_t far) {
+        const RootRatio r = root_ratio(p_, near, far, s_.context);
+        char text[32];
+        const double num = std::ldexp(r.num.sig, r.num.exp), den = std::ldexp(r.den.sig, r.den.exp);
+        std::snprintf(text, sizeof text, "%.6g", num / den);
+        return std::string(text);
+      };
+      stage.remarks.push_back("Here a = " + ratio(0, 2) + ", b = " + ratio(3, 1) + ", c = " + ratio(4, 5) + ".");
     }
     stage.remarks.push_back("exact: scaled so that the sum of M |k| is the same; a common factor changes no output.");
     each(Boundary::weight, stage, [&](Draft& d, std::size_t i) {

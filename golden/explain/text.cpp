@@ -11,7 +11,9 @@ namespace quadrille::explain {
 const char* const legend =
     "exact: the same formula in 113 bits on the snapped corners. ulp: the error, value - exact, in last stored "
     "places.\n"
-    "bound: |error| as a part of what is proved or specified; 'none' means no error is possible.";
+    "bound: |error| as a part of what is proved or specified; 'none' means no error is possible. unsnapped: exact, of "
+    "the\n"
+    "corners as given, before they became integers.";
 
 namespace {
 
@@ -36,6 +38,7 @@ class Table {
  public:
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
   std::string text(const std::string& indent) const {
+    if (rows_.size() < 2) return "";  // nothing below the head
     std::vector<std::size_t> width;
     for (const auto& row : rows_)
       for (std::size_t i = 0; i < row.size(); ++i) {
@@ -82,6 +85,17 @@ std::string joined(const std::vector<std::string>& list, const char* between) {
   return out;
 }
 
+/// A bit for each pixel of a row, or for each clause of expression (12), or for each flag.
+bool is_mask(const Number& n) {
+  return n.name == "mask" || n.name == "visible" || n.name == "flags" ||
+         (n.stored.front().width > 1 && (n.name == "front" || n.name == "tie"));
+}
+std::string binary(const Field& field) {
+  std::string text = "0b";
+  for (int bit = field.width; bit-- > 0;) text += (field.value >> bit & 1) != 0 ? '1' : '0';
+  return text;
+}
+
 std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
   std::string out = std::to_string(place) + ". " + stage.title + "  [" + stage.name + "]";
   if (stage.compared != Stage::Compared::no)
@@ -92,24 +106,25 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
   for (const std::string& remark : stage.remarks) out += wrapped("   - " + remark, 5);
   Table table;
   const bool beside = std::ranges::any_of(stage.numbers, [](const Number& n) { return n.exact.has_value(); });
-  table.add(beside ? std::vector<std::string>{"", "stored", "value", "exact", "ulp", "bound"}
-                   : std::vector<std::string>{"", "stored", "value"});
-  std::size_t left_out = 0;
+  const bool given = std::ranges::any_of(stage.numbers, [](const Number& n) { return n.given.has_value(); });
+  std::vector<std::string> head{"", "stored", "value"};
+  if (beside) head.insert(head.end(), {"exact", "ulp", "bound"});
+  if (given) head.emplace_back("unsnapped");
+  table.add(std::move(head));
+  std::size_t left_out = 0, not_needed = 0;
   for (const Number& n : stage.numbers) {
-    if (!whole && !n.differs && is_coefficient(stage, n)) {
-      ++left_out;
+    if (!whole && !n.differs && (n.unused || is_coefficient(stage, n))) {
+      ++(n.unused ? not_needed : left_out);
       continue;
     }
-    const bool integer = n.format == Number::Format::integer;
-    std::vector<std::string> row{n.name, stored_text(n, n.stored),
-                                 n.unused  ? "not needed"
-                                 : integer ? ""
-                                           : real_text(n.value) + (n.unit.empty() ? "" : " " + n.unit)};
+    std::vector<std::string> row{n.name, stored_text(n, n.stored), value_text(n)};
     if (beside && n.exact) row.insert(row.end(), {exact_text(n), ulp_text(n), bound_text(n)});
+    if (n.given) row.push_back(real_text(*n.given));
     table.add(std::move(row));
     if (n.differs) table.add({"  RTL", stored_text(n, n.other)});
   }
   out += table.text("     ");
+  if (not_needed > 0) out += "     (" + std::to_string(not_needed) + " numbers are not needed at this pixel, and 0)\n";
   if (left_out > 0) out += "     (" + std::to_string(left_out) + " coefficients more with --verbose)\n";
   return out;
 }
@@ -119,12 +134,18 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
 std::string real_text(double v) { return format("%.10g", v); }
 
 std::string stored_text(const Number& n, const std::vector<Field>& fields) {
-  if (n.format == Number::Format::integer) return fields.front().text();
+  if (n.format == Number::Format::integer) return is_mask(n) ? binary(fields.front()) : fields.front().text();
   if (n.format == Number::Format::fixed) return fields.front().text() + " / 2^" + std::to_string(n.fraction_bits);
   const Field &sig = fields.back(), &exp = fields[fields.size() - 2];
   if (sig.value == 0) return "0";
   const std::string sign = fields.size() == 3 && fields.front().value != 0 ? "-" : "";
   return sign + sig.text() + " · 2^" + std::to_string(static_cast<std::int64_t>(exp.value) - n.fraction_bits);
+}
+
+std::string value_text(const Number& n) {
+  if (n.unused) return "not needed";
+  if (n.format == Number::Format::integer) return "";
+  return real_text(n.value) + (n.unit.empty() ? "" : " " + n.unit);
 }
 
 std::string exact_text(const Number& n) { return n.exact ? real_text(*n.exact) : ""; }
@@ -141,6 +162,12 @@ std::string bound_text(const Number& n) {
   return format("%.3f", *n.of_bound);
 }
 
+std::string sentence(const std::string& why) {
+  std::string text = why;
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text + ".";
+}
+
 std::string headline(const Explanation& e) {
   std::string text = "quad " + std::to_string(e.quad) + ": ";
   if (e.outcome == Outcome::drawn) return text + (e.seen ? "drawn" : "drawn, but another quad is in front of it");
@@ -149,20 +176,19 @@ std::string headline(const Explanation& e) {
 
 bool is_coefficient(const Stage& stage, const Number& n) {
   if (stage.name != "setup" && stage.name != "tile") return false;
-  return n.unused || n.name.ends_with(" gx") || n.name.ends_with(" gy") || n.name.ends_with(" q") ||
-         n.name.starts_with("|V");
+  return n.name.ends_with(" gx") || n.name.ends_with(" gy") || n.name.ends_with(" q") || n.name.starts_with("|V");
 }
 
 std::string to_text(const Explanation& e, bool whole) {
   std::string out = "Pixel (" + std::to_string(e.x) + ", " + std::to_string(e.y) + "), " + headline(e) + "\n" +
-                    wrapped("  " + e.why, 4);
+                    wrapped("  " + sentence(e.why), 4);
   if (e.outcome == Outcome::refused) return out;
   if (e.covered()) {
     out += "  The pixel centre is " + e.place + ".";
     if (!e.flags.empty()) out += " Flags: " + joined(e.flags, ", ") + ".";
     out += "\n";
   }
-  for (const std::string& remark : e.remarks) out += wrapped("  " + remark, 4);
+  for (const std::string& remark : e.remarks) out += wrapped("  " + sentence(remark), 4);
   Table edges;
   edges.add({"edge function", "at the pixel", "centre is", "counts as"});
   for (const Edge& edge : e.edges)
@@ -178,6 +204,16 @@ std::string to_text(const Explanation& e, bool whole) {
   if (!e.stages.empty()) out += std::string("\n") + legend + "\n";
   return out;
 }
+
+namespace {
+
+std::string near_text(const Explanation& e, bool nearest) {
+  if (!nearest) return ": ";
+  return std::isfinite(e.missed_by) ? ", the nearest (its outline is " + format("%.3g", e.missed_by) + " px away): "
+                                    : ", for one: ";
+}
+
+}  // namespace
 
 std::string summary(std::span<const Explanation> all) {
   std::map<Outcome, std::size_t> count;
@@ -195,7 +231,7 @@ std::string summary(std::span<const Explanation> all) {
       if (e.outcome == outcome && (outcome != Outcome::outside || &e == nearest)) {
         if (outcome == Outcome::left_out && e.reject == QuadReject::empty) continue;
         if (++shown > 3) break;
-        out += "    quad " + std::to_string(e.quad) + (&e == nearest ? ", the nearest: " : ": ") + e.why + "\n";
+        out += "    quad " + std::to_string(e.quad) + near_text(e, &e == nearest) + e.why + "\n";
       }
   }
   return out;

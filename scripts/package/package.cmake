@@ -22,6 +22,7 @@ set(golden_headers
   analysis/error_bound.hpp
   analysis/hardware_cost.hpp
   analysis/range_proof.hpp
+  explain/explain.hpp
   methods/method.hpp
   reference/exact_coverage.hpp
   reference/coverage_rows.hpp
@@ -65,7 +66,7 @@ function(quadrille_package component)
   target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${include}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 quadrille_package(model quadrille_model quadrille_support)
-quadrille_package(golden quadrille_analysis quadrille_methods quadrille_reference quadrille_scenes)
+quadrille_package(golden quadrille_analysis quadrille_explain quadrille_methods quadrille_reference quadrille_scenes)
 target_link_libraries(quadrille_package_golden INTERFACE quadrille_package_model quadmath)
 
 # The C interface (model/c_api) is a shared library by itself.

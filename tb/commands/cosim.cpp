@@ -44,7 +44,12 @@ int run_inputs(const CosimOptions& options, const Config& config, const std::vec
   if (std::FILE* text = options.common.text()) report.print_summary(text, total, model, ok);
   if (!options.common.json.empty())
     golden::save_json(options.common.json, report.all(total, results, model, ok, arguments));
-  for (const InputResult& result : results) complain(result);
+  for (const InputResult& result : results) {
+    complain(result);
+    // A minimized failure has a command of its own.
+    if (const std::string command = report.explain(result); options.no_shrink && !command.empty())
+      std::fprintf(stderr, "quadrille: %s: the pixel explained: %s\n", result.name.c_str(), command.c_str());
+  }
   if (!model.ok()) std::fprintf(stderr, "quadrille: model check: %s\n", model.fault().c_str());
   if (!ok && !options.no_shrink) run.shrink_failure(results, model);
   return ok ? exit_ok : exit_mismatch;

@@ -76,13 +76,19 @@ const char* outcome(const InputResult& r, const ModelCheck& model, bool ok) {
 
 }  // namespace
 
-std::string CosimReport::reproduce(const InputResult& result, const CheckResult::Worst& worst) const {
-  std::string text = "quadrille fragments --engine model " + result.option;
+std::string CosimReport::command_at(const InputResult& result, const std::string& command, std::uint32_t quad, int x,
+                                    int y) const {
+  std::string text = "quadrille " + command + " " + result.option;
   if (!options_.common.config_file.empty()) text += " --config " + quoted(options_.common.config_file);
   for (const std::string& setting : options_.common.settings) text += " --set " + quoted(setting);
   text += " --size " + options_.common.size + " --seed " + std::to_string(options_.common.seed) + result.state;
-  return text + " --quad " + std::to_string(worst.place.index) + " --pixel " + std::to_string(worst.place.x) + "," +
-         std::to_string(worst.place.y) + " --out -";
+  return text + " --quad " + std::to_string(quad) + " --pixel " + std::to_string(x) + "," + std::to_string(y);
+}
+
+std::string CosimReport::explain(const InputResult& r) const {
+  if (!r.first_pixel) return "";
+  const std::string rtl = options_.rtl.empty() ? "" : " --rtl " + quoted(options_.rtl);
+  return command_at(r, "explain --engine rtl" + rtl, r.first_pixel->quad, r.first_pixel->x, r.first_pixel->y);
 }
 
 nlohmann::ordered_json CosimReport::result(const InputResult& r) const {
@@ -112,7 +118,9 @@ nlohmann::ordered_json CosimReport::result(const InputResult& r) const {
         {"quad", c.worst.place.quad}, {"position", c.worst.place.index}, {"x", c.worst.place.x},
         {"y", c.worst.place.y},       {"weight", c.worst.weight},        {"lambda_error", c.worst.error},
         {"bound", c.worst.bound},     {"condition", c.worst.condition},  {"error_over_bound", c.worst.ratio}};
-    if (r.name != "all") json["worst"]["reproduce"] = reproduce(r, c.worst);
+    if (r.name != "all")
+      json["worst"]["reproduce"] =
+          command_at(r, "fragments --engine model", c.worst.place.index, c.worst.place.x, c.worst.place.y) + " --out -";
   }
   put_metrics(json["counts"], MetricGroup::counts, r);
   json["skips"] = {{"compared", r.skips.compared}, {"quads_that_differ", r.skips.differences}};
@@ -121,6 +129,7 @@ nlohmann::ordered_json CosimReport::result(const InputResult& r) const {
   json["regression"] = {{"inputs_with_limits", r["limits_checked"]}, {"beyond", r.beyond_limits}};
   if (r.first_divergence) json["first_divergence"] = *r.first_divergence;
   if (c.first.any) json["first_reference_difference"] = c.first.text;
+  if (const std::string command = explain(r); !command.empty()) json["explain"] = command;
   json["wall_seconds"] = r.seconds;
   json["rtl_cycles_per_second"] = rate(r);
   json["rtl_alone_cycles_per_second"] = alone_rate(r);

@@ -21,12 +21,15 @@ class CosimReport {
   nlohmann::ordered_json result(const InputResult& r) const;
   nlohmann::ordered_json all(const InputResult& total, const std::vector<InputResult>& results, const ModelCheck& model,
                              bool ok, const std::vector<std::string>& arguments) const;
+  /// The command that explains the pixel of the first difference; empty where there is none.
+  std::string explain(const InputResult& r) const;
   void print_summary(std::FILE* out, const InputResult& r, const ModelCheck& model, bool ok) const;
 
  private:
   /// The bound is a statement about exact A, D and R².
   bool bound_applies() const { return config_.qdrop() == 0; }
-  std::string reproduce(const InputResult& result, const CheckResult::Worst& worst) const;
+  /// A command on the pixel of an input.
+  std::string command_at(const InputResult& result, const std::string& command, std::uint32_t quad, int x, int y) const;
   void print_errors(std::FILE* out, const InputResult& r) const;
 
   const CosimOptions& options_;

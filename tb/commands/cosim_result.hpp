@@ -5,6 +5,7 @@
 #include "tb/judge/check.hpp"
 #include "tb/judge/metric.hpp"
 #include "tb/judge/skip_check.hpp"
+#include "tb/lockstep/scoreboard.hpp"
 
 #include <array>
 #include <cstdint>
@@ -85,6 +86,7 @@ struct InputResult {
   double alone_seconds = 0, seconds = 0, loop_seconds = 0;
   bool complete = true;
   std::optional<std::string> first_divergence;
+  std::optional<DivergentPixel> first_pixel;  ///< that it is about, or the first difference from the truth
   std::uint64_t fragment_hash = 0;
   CheckResult check;
   SkipResult skips;                        ///< draws with and without the skips

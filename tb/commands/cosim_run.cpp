@@ -316,6 +316,7 @@ void CosimRun::run_pass(const DrawInput& input, const DrawState& draw_state, con
     for (std::size_t i = 0; i < counter_count; ++i) report.counters.value[i] -= all.value[i];
   }
   if (!result.first_divergence) result.first_divergence = report.first_divergence;
+  if (!result.first_pixel && draw == nullptr) result.first_pixel = faulty_pixel(report, check);
   if (!first) check.compared = 0;  // the same fragments again
   result.check.merge(check);
   result.skips.merge(skips);

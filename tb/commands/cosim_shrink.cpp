@@ -53,6 +53,9 @@ class FailedPassRuns {
   bool fails(const FailingDraw& draw) { return fails(draw, simulator_, options_of(draw), false); }
   std::uint64_t clocks() const { return std::max(report_.cycles_rtl, report_.cycles_model); }  ///< of the last run
 
+  /// Of the last run.
+  std::optional<DivergentPixel> pixel() const { return faulty_pixel(report_, check_); }
+
   /// Writes the last clocks of a draw that failed just now; false when the machine with waveforms does not fail.
   bool trace(const FailingDraw& draw, const std::string& file) {
     LockstepOptions options = options_of(draw);
@@ -106,11 +109,11 @@ class FailedPassRuns {
     FragmentChecker::Settings settings = failed_.check;
     settings.state = options.state;
     settings.snapping = false;
-    const CheckResult check = check_here(settings, draw.quads, snapped_, [&](const auto& sink) {
+    check_ = check_here(settings, draw.quads, snapped_, [&](const auto& sink) {
       report_ = run_lockstep(simulator, snapped_, options, sink);
       return report_.complete;
     });
-    return report_.agreed() && check.faults() != 0;
+    return report_.agreed() && check_.faults() != 0;
   }
 
   const FailedPass& failed_;
@@ -121,15 +124,36 @@ class FailedPassRuns {
   std::uint64_t runs_ = 0;
   std::vector<SnappedQuad> snapped_;
   LockstepReport report_;
+  CheckResult check_;
 };
+
+/// What every command on the minimized draw has.
+std::string options_of(const FailingDraw& draw, const ShrinkOptions& options, const CommonOptions& common) {
+  std::string text = " --quads " + quoted(options.quads);
+  if (!common.config_file.empty()) text += " --config " + quoted(common.config_file);
+  for (const std::string& setting : common.settings) text += " --set " + quoted(setting);
+  return text + " --size " + std::to_string(draw.state.width) + "x" + std::to_string(draw.state.height) + " --seed " +
+         std::to_string(draw.seed) + StateOptions::of(draw.state).spelled();
+}
+
+std::string rtl_of(const FailedPass& failed) {
+  return failed.lockstep.source.empty() ? "" : " --rtl " + quoted(failed.lockstep.source.string());
+}
+
+/// The pixel of the failure, explained; that of a scissor rectangle of one where the difference is about none.
+std::string explain_command(const FailingDraw& draw, const FailedPass& failed, const ShrinkOptions& options,
+                            const CommonOptions& common, std::optional<DivergentPixel> pixel) {
+  const DrawState& state = draw.state;
+  const bool one = state.scissor_x1 - state.scissor_x0 == 1 && state.scissor_y1 - state.scissor_y0 == 1;
+  if (!pixel && one && draw.quads.size() == 1) pixel = {0, state.scissor_x0, state.scissor_y0};
+  if (!pixel) return "";
+  return "quadrille explain" + options_of(draw, options, common) + " --quad " + std::to_string(pixel->quad) +
+         " --pixel " + std::to_string(pixel->x) + "," + std::to_string(pixel->y) + " --engine rtl" + rtl_of(failed);
+}
 
 std::string command_of(const FailingDraw& draw, const FailedPass& failed, const ShrinkOptions& options,
                        const CommonOptions& common) {
-  std::string command = "quadrille cosim --quads " + quoted(options.quads);
-  if (!common.config_file.empty()) command += " --config " + quoted(common.config_file);
-  for (const std::string& setting : common.settings) command += " --set " + quoted(setting);
-  command += " --size " + std::to_string(draw.state.width) + "x" + std::to_string(draw.state.height) + " --seed " +
-             std::to_string(draw.seed) + StateOptions::of(draw.state).spelled();
+  std::string command = "quadrille cosim" + options_of(draw, options, common);
   if (failed.slots < failed.lockstep.config.attribute_slots) command += " --attributes " + std::to_string(failed.slots);
   if (draw.waits) {
     if (!draw.waits->stall_clocks.empty()) command += " --stall-clocks " + spell_stall_clocks(draw.waits->stall_clocks);
@@ -140,8 +164,8 @@ std::string command_of(const FailingDraw& draw, const FailedPass& failed, const 
   }
   if (failed.lockstep.limit_fragments != 0)
     command += " --limit-fragments " + std::to_string(failed.lockstep.limit_fragments);
-  if (!failed.lockstep.source.empty()) command += " --rtl " + quoted(failed.lockstep.source.string());
-  return command + " --no-alone --no-shrink";  // nothing is timed, and there is nothing less to be looked for
+  return command + rtl_of(failed) +
+         " --no-alone --no-shrink";  // nothing is timed, and there is nothing less to be looked for
 }
 
 std::string counted(std::size_t count, const char* thing) {
@@ -149,6 +173,14 @@ std::string counted(std::size_t count, const char* thing) {
 }
 
 }  // namespace
+
+std::optional<DivergentPixel> faulty_pixel(const LockstepReport& report, const CheckResult& check) {
+  if (report.first_pixel || !report.agreed()) return report.first_pixel;
+  if (check.first.any) return DivergentPixel{check.first.place.index, check.first.place.x, check.first.place.y};
+  const CheckResult::Worst& worst = check.worst;
+  if (check.faults() != 0 && worst.ratio >= 0) return DivergentPixel{worst.place.index, worst.place.x, worst.place.y};
+  return std::nullopt;
+}
 
 std::string quoted(const std::string& argument) { return golden::command_line(std::span(&argument, 1)); }
 
@@ -177,6 +209,7 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
   }
   if (!fails && !runs.fails(kept)) throw std::runtime_error("no failure with the minimized quads in " + options.quads);
   const std::uint64_t clocks = runs.clocks();
+  const std::string explained = explain_command(kept, failed, options, common, runs.pixel());
   const std::string waveform = std::filesystem::path(options.quads).replace_extension(".fst").string();
   PartialFile trace(waveform);
   const bool traced = runs.trace(kept, trace.path());
@@ -193,6 +226,7 @@ void shrink_failed_pass(const FailedPass& failed, const ShrinkOptions& options, 
   std::snprintf(seconds, sizeof seconds, "%.1f", start.seconds());
   text += " (" + counted(runs.runs(), "run") + ", " + seconds + " s):\n  " + command_of(kept, failed, options, common) +
           "\n  waveform of its last " + counted(std::min(clocks, clocks_shown), "clock") + ": " + waveform + "\n";
+  if (!explained.empty()) text += "  its pixel explained: " + explained + "\n";
   if (!traced) text += "  no failure in the waveform: the fault depends on register contents before reset\n";
   if (shrunk->ended) text += "  time limit reached (--shrink-time): fewer may also fail\n";
   std::fputs(text.c_str(), stderr);

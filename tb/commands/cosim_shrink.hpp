@@ -6,6 +6,7 @@
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/options/options.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct ShrinkOptions {
   std::string quads;    ///< the file for what is left; the waveform is beside it (.fst)
   double seconds = 60;  ///< after which the search ends with what it has
 };
+
+/// The first pixel at which a run failed, if it is about one.
+std::optional<DivergentPixel> faulty_pixel(const LockstepReport& report, const CheckResult& check);
 
 /// The argument as a shell wants it.
 std::string quoted(const std::string& argument);

@@ -6,6 +6,7 @@
 #include "golden/explain/explain.hpp"
 #include "golden/io/atomic_file.hpp"
 #include "golden/io/json_report.hpp"
+#include "model/port/snap.hpp"
 #include "tb/options/input.hpp"
 #include "tb/options/pixel.hpp"
 #include "tb/options/written_file.hpp"
@@ -59,6 +60,11 @@ int explain_pixel(const ExplainOptions& options, const Invocation& invocation) {
   check_quad_count(input.quads.size(), config);
   // Ids may repeat; the machine gets positions, as in every draw.
   for (std::size_t i = 0; i < input.quads.size(); ++i) input.quads[i].id = static_cast<std::uint32_t>(i);
+  try {
+    for (const WindowQuad& quad : input.quads) snap_quad(quad, config, state);
+  } catch (const SnapError& error) {
+    throw UsageError(describe(error, input));
+  }
   std::span<const WindowQuad> quads(input.quads);
   if (options.quad >= 0) {
     if (static_cast<std::uint64_t>(options.quad) >= quads.size())
@@ -79,7 +85,7 @@ int explain_pixel(const ExplainOptions& options, const Invocation& invocation) {
     lockstep.probes = !std::filesystem::is_regular_file(options.rtl);
     const ExplainByRtl rtl(lockstep);
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (shown(all[i]) && all[i].outcome != explain::Outcome::refused) same &= rtl.compare(all[i], quads[i]);
+      if (shown(all[i])) same &= rtl.compare(all[i], quads[i]);
   }
   const bool bounded = std::ranges::none_of(all, exceeds);
 
@@ -108,8 +114,9 @@ int explain_pixel(const ExplainOptions& options, const Invocation& invocation) {
     if (static_cast<std::size_t>(input.attributes) > static_cast<std::size_t>(state.attributes))
       std::fprintf(text, "The first %d of %d attributes: the machine draws as many at a time (attribute_slots).\n\n",
                    state.attributes, input.attributes);
-    for (const Explanation& e : all)
-      if (shown(e)) std::fprintf(text, "%s\n", explain::to_text(e, options.common.verbose).c_str());
+    for (const bool seen : {true, false})
+      for (const Explanation& e : all)
+        if (e.seen == seen && shown(e)) std::fprintf(text, "%s\n", explain::to_text(e, options.common.verbose).c_str());
     if (all.size() > 1) {
       if (const std::string others = explain::summary(all); !others.empty())
         std::fprintf(text, "%s:\n%s", covering == 0 ? "No quad covers the pixel" : "The other quads", others.c_str());
@@ -127,13 +134,14 @@ void add_explain_command(CLI::App& app, Invocation& invocation) {
   end_help(*command,
            "For each quad that covers the pixel: which rule covers it, then each stage's formula and numbers, as "
            "stored, as real values, and beside exact arithmetic. A pixel that no quad covers has the rule that "
-           "rejected it. Quads are taken one by one: what an earlier one hides is not looked at.\n"
+           "rejected it. Quads are taken one by one: what an earlier one hides is not looked at. --verbose prints all "
+           "coefficients.\n"
            "With --engine rtl the RTL draws each of these quads alone, after a reset; a difference from the model is "
            "shown beside the number.",
            "0 done; 1 RTL and model differ, or a bound exceeded; 2 usage or input error; 3 missing tool",
-           {"explain --scene fig10_convex --pixel 256,256", "explain --scene bowtie --pixel 160,160 --html pixel.html",
-            "explain --quads some.quads --quad 2 --pixel 10,20 --json -",
-            "explain --mesh pawn.obj --set significand_bits=12 --pixel 300,240 --engine rtl"});
+           {"explain --scene fig10_convex --pixel 256,256",
+            "explain --quads some.quads --quad 2 --pixel 10,20 --html pixel.html",
+            "explain --mesh pawn.obj --pixel 300,240 --engine rtl"});
   const auto options = std::make_shared<ExplainOptions>();
   options->input.add_to(*command);
   add_attributes_option(*command, options->shade);

@@ -33,13 +33,15 @@ void compare_weight(Number& number, const RecordLayout& layout, const Record& re
 }  // namespace
 
 ExplainByRtl::ExplainByRtl(const LockstepOptions& options) : options_(options) {
-  options_.stop_at_first = false;
+  options_.stop_at_first = false;  // the pixel may come later
+  options_.limit_differences = 0;
   options_.threads = 1;
   simulator_ = simulator_in_lockstep(options_);
 }
 
 bool ExplainByRtl::compare(Explanation& e, const WindowQuad& quad) const {
   const Config& config = options_.config;
+  bool said = false;
   const auto run = [&](const WindowQuad& drawn, const DrawState& state, auto&& look) {
     LockstepOptions options = options_;
     options.state = state;
@@ -47,7 +49,9 @@ bool ExplainByRtl::compare(Explanation& e, const WindowQuad& quad) const {
     PixelWatch watch(device, config, e.x, e.y);
     const SnappedQuad snapped = snap_quad(drawn, config, state);
     const LockstepReport report = run_lockstep(watch, std::span(&snapped, 1), options);
-    if (report.first_divergence) e.remarks.push_back("RTL and model, this quad alone: " + *report.first_divergence);
+    if (report.first_divergence && !said)
+      e.remarks.push_back("the first difference of the quad: " + *report.first_divergence);
+    said = said || report.first_divergence;
     look(watch);
     return report.agreed();
   };
@@ -62,7 +66,7 @@ bool ExplainByRtl::compare(Explanation& e, const WindowQuad& quad) const {
       if (!record && !e.covered()) continue;
       explain::compare(stage, boundary_layout(*boundary, config), record ? &*record : nullptr);
     }
-    if (!e.covered() && watch.at(Boundary::diff)) e.remarks.emplace_back("The RTL covers this pixel.");
+    if (!e.covered() && watch.at(Boundary::diff)) e.remarks.emplace_back("the RTL covers this pixel");
   });
 
   const auto lambda = std::ranges::find(e.stages, "lambda", &Stage::name);

@@ -60,6 +60,21 @@ TEST_F(CliShrink, FaultInAFixedPointBit) {
   const Outcome again = run(less + " --quiet");
   EXPECT_EQ(again.status, 1) << less << again.err;
   EXPECT_NE(again.err.find("stage fragment, field"), std::string::npos) << again.err;
+  // The pixel that is left, explained: everything is the same but what leaves the machine.
+  const std::size_t explain = whole.err.find("  its pixel explained: quadrille explain --quads less.quads ");
+  ASSERT_NE(explain, std::string::npos) << whole.err;
+  const std::size_t begin = whole.err.find("explain --quads", explain);
+  const Outcome explained = run(whole.err.substr(begin, whole.err.find('\n', begin) - begin));
+  EXPECT_EQ(explained.status, 1) << explained.err;
+  EXPECT_NE(explained.out.find("[sum]  (RTL: the same)"), std::string::npos) << explained.out;
+  EXPECT_NE(explained.out.find("(RTL: differs)"), std::string::npos) << explained.out;
+  // That of the whole scene, which many differences come before.
+  const std::size_t whole_explain = plain.err.find("explain --engine rtl --rtl rtl --scene bowtie ");
+  ASSERT_NE(whole_explain, std::string::npos) << plain.err;
+  const Outcome of_scene = run(plain.err.substr(whole_explain, plain.err.find('\n', whole_explain) - whole_explain));
+  EXPECT_EQ(of_scene.status, 1) << of_scene.err;
+  EXPECT_NE(of_scene.out.find("[sum]  (RTL: the same)"), std::string::npos) << of_scene.out;
+
   const std::string sound = less.substr(0, less.find(" --rtl"));
   EXPECT_EQ(run(sound + " --quiet").status, 0) << sound;
 }

@@ -253,6 +253,7 @@ LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboa
   report.mismatches = scoreboard.mismatches();
   report.cycle_mismatches = scoreboard.cycle_mismatches();
   report.first_divergence = scoreboard.first_divergence();
+  report.first_pixel = scoreboard.first_pixel();
   report.boundaries = scoreboard.counts();
   for (const BoundaryCount& count : report.boundaries) report.compared_bits += count.bits;
   return report;

@@ -65,6 +65,7 @@ struct LockstepReport {
   std::uint64_t cycles_model = 0;
   bool complete = false;  ///< every quad was drawn: not ended by a limit, a difference or the watchdog
   std::optional<std::string> first_divergence;
+  std::optional<DivergentPixel> first_pixel;  ///< that it is about
   std::vector<BoundaryCount> boundaries;
   PerformanceCounters counters;     ///< of the model; the RTL's were the same if the configuration has them
   std::uint64_t compared_bits = 0;  ///< over all boundaries

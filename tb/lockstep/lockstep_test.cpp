@@ -148,6 +148,40 @@ TEST_P(Lockstep, NamesTheFieldThatDiffers) {
                                           ", pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
                                           "), stage sqrt, field sig[1]: expected " + hex(sig, 12) +
                                           " (model), actual " + hex(sig ^ 4u, 12) + " (RTL); seed 1");
+  ASSERT_TRUE(report.first_pixel);
+  EXPECT_EQ(report.first_pixel->quad, pixel.quad);
+  EXPECT_EQ(report.first_pixel->x, pixel.x);
+  EXPECT_EQ(report.first_pixel->y, pixel.y);
+}
+
+/// A stamp has a pointer to its tile; tiles of homogeneous quads take several places of the ring.
+TEST_P(Lockstep, NamesTheRowOfAStamp) {
+  constexpr auto stamp = static_cast<std::size_t>(Boundary::stamp);
+  const int log2 = options.config.tile_log2;
+  std::vector<std::array<int, 3>> rows;  // quad, x of the tile, y, by the pixels that come of each stamp
+  bool homogeneous = false;
+  run([&](std::uint64_t, ModelDevice::Outputs& out) {
+    const PixelTrace* pixel = out.model.probes.lane[0].diff;
+    if (pixel == nullptr) return;
+    homogeneous = homogeneous || pixel->homogeneous;
+    const std::array<int, 3> row{static_cast<int>(pixel->quad), pixel->x >> log2 << log2, pixel->y};
+    if (rows.empty() || rows.back() != row) rows.push_back(row);
+  });
+  EXPECT_TRUE(homogeneous);
+  ASSERT_GT(rows.size(), 200u);
+  for (std::size_t wanted = 0; wanted < rows.size(); wanted += 37) {
+    std::size_t stamps = 0;
+    const LockstepReport report = run([&](std::uint64_t, ModelDevice::Outputs& out) {
+      const StampEntry* at = out.model.probes.stamp;
+      if (at != nullptr && !at->end && stamps++ == wanted) out.words[stamp][0][0] ^= 1u;
+    });
+    const auto [quad, x, y] = rows[wanted];
+    const std::string place =
+        "quad " + std::to_string(quad) + ", row at (" + std::to_string(x) + ", " + std::to_string(y) + "), stage stamp";
+    ASSERT_TRUE(report.first_divergence);
+    EXPECT_NE(report.first_divergence->find(place), std::string::npos) << *report.first_divergence << "\n" << place;
+    EXPECT_FALSE(report.first_pixel);
+  }
 }
 
 TEST_P(Lockstep, EveryPerformanceCounterIsCompared) {

@@ -8,7 +8,7 @@
 namespace quadrille::tb {
 namespace {
 
-constexpr std::size_t index_of(Boundary b) { return static_cast<std::size_t>(b); }
+constexpr std::size_t boundary_index(Boundary b) { return static_cast<std::size_t>(b); }
 
 /// Clocks behind `diff`: the pipeline never waits.
 constexpr std::array<std::pair<Boundary, int>, 5> behind_diff{{
@@ -43,8 +43,8 @@ void PixelWatch::clock() {
 
 std::optional<Record> PixelWatch::record_of(Boundary boundary, std::size_t lane, const DeviceSample& sample) const {
   const bool port = boundary == Boundary::fragment;
-  const std::uint32_t valid = port ? sample.fragment_mask : sample.probe[index_of(boundary)].valid;
-  const std::uint32_t* words = port ? sample.fragment[lane] : sample.probe[index_of(boundary)].words[lane];
+  const std::uint32_t valid = port ? sample.fragment_mask : sample.probe[boundary_index(boundary)].valid;
+  const std::uint32_t* words = port ? sample.fragment[lane] : sample.probe[boundary_index(boundary)].words[lane];
   if ((valid >> lane & 1) == 0 || words == nullptr) return std::nullopt;
   return Record::from_words(words, layout(boundary).bits());
 }
@@ -63,18 +63,22 @@ void PixelWatch::look(const DeviceSample& sample) {
         entered_ = clock_;
         lane_ = lane;
       }
-      record_[index_of(b)] = std::move(record);
+      record_[boundary_index(b)] = std::move(record);
     }
   for (const auto& [boundary, clocks] : behind_diff)
     if (entered_ && clock_ == *entered_ + static_cast<std::uint64_t>(clocks))
-      record_[index_of(boundary)] = record_of(boundary, lane_, sample);
+      record_[boundary_index(boundary)] = record_of(boundary, lane_, sample);
 }
 
 void PixelWatch::look_at_front(const DeviceSample& sample) {
-  if (auto setup = record_of(Boundary::setup, 0, sample)) record_[index_of(Boundary::setup)] = std::move(setup);
+  if (auto setup = record_of(Boundary::setup, 0, sample)) record_[boundary_index(Boundary::setup)] = std::move(setup);
   if (auto tile = record_of(Boundary::tile, 0, sample)) {
+    // A tile of a homogeneous quad takes an entry for each part of its functions.
+    const std::optional<Record>& setup = record_[boundary_index(Boundary::setup)];
+    const bool parts =
+        field(Boundary::tile, *tile, "end_token") == 0 && setup && field(Boundary::setup, *setup, "homogeneous") != 0;
     ring_[ring_write_] = std::move(tile);
-    ring_write_ = (ring_write_ + 1) % ring_.size();
+    ring_write_ = (ring_write_ + (parts ? latency::homogeneous_parts : 1)) % ring_.size();
   }
   auto stamp = record_of(Boundary::stamp, 0, sample);
   if (!stamp || field(Boundary::stamp, *stamp, "end_token") != 0) return;
@@ -84,8 +88,8 @@ void PixelWatch::look_at_front(const DeviceSample& sample) {
       field(Boundary::tile, *tile, "tile_y") != y_ >> tile_log2_ ||
       field(Boundary::stamp, *stamp, "row") != (y_ & ((1 << tile_log2_) - 1)))
     return;
-  record_[index_of(Boundary::tile)] = tile;
-  record_[index_of(Boundary::stamp)] = std::move(stamp);
+  record_[boundary_index(Boundary::tile)] = tile;
+  record_[boundary_index(Boundary::stamp)] = std::move(stamp);
 }
 
 }  // namespace quadrille::tb

@@ -1,5 +1,8 @@
 #include "tb/lockstep/scoreboard.hpp"
 
+#include "model/port/latency.hpp"
+#include "model/port/snap.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -41,11 +44,12 @@ void Scoreboard::follows(const Scoreboard& before) {
   ring_write_ = before.ring_write_;
 }
 
-std::string Scoreboard::where(const Place& place) const {
+std::string Scoreboard::where(const Place& place) {
+  if (place.quad != nullptr && place.x >= 0 && place.unit == "pixel") first_pixel_ = {place.quad->id, place.x, place.y};
   std::string text = "cycle " + std::to_string(cycle_);
   if (place.quad != nullptr) text += ", quad " + std::to_string(place.quad->id);
   if (place.x >= 0) {
-    text += std::string(", ") + place.unit + " (" + std::to_string(place.x) + ", " + std::to_string(place.y) + ")";
+    text += ", " + std::string(place.unit) + " (" + std::to_string(place.x) + ", " + std::to_string(place.y) + ")";
   }
   if (place.lane >= 0) text += ", lane " + std::to_string(place.lane);
   return text;
@@ -110,9 +114,12 @@ void Scoreboard::boundary(Boundary b, std::size_t lane, const Record* expected, 
 void Scoreboard::follow(const ClockedProbes& probes) {
   if (probes.setup != nullptr) quad_of_slot_[probes.setup->slot % quad_of_slot_.size()] = probes.setup_quad;
   if (probes.tile != nullptr) {
-    ring_[ring_write_] = {quad_of_slot_[probes.tile->slot % quad_of_slot_.size()], probes.tile->tile_x,
-                          probes.tile->tile_y};
-    ring_write_ = (ring_write_ + 1) % ring_.size();
+    const std::size_t quad = quad_of_slot_[probes.tile->slot % quad_of_slot_.size()];
+    ring_[ring_write_] = {quad, probes.tile->tile_x, probes.tile->tile_y};
+    // A tile of a homogeneous quad takes an entry for each part of its functions.
+    const SnappedQuad* of = quad_at(quad);
+    const bool parts = !probes.tile->end && of != nullptr && !is_ordinary(*of, config_);
+    ring_write_ = (ring_write_ + (parts ? latency::homogeneous_parts : 1)) % ring_.size();
   }
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace quadrille::tb {
@@ -21,6 +22,12 @@ struct BoundaryCount {
   std::uint64_t beats = 0;       ///< payloads that were there on both sides and were compared
   std::uint64_t bits = 0;        ///< payload bits compared
   std::uint64_t mismatches = 0;  ///< beats that differ
+};
+
+/// The pixel of a quad that a difference is about.
+struct DivergentPixel {
+  std::uint32_t quad = 0;  ///< its id
+  int x = 0, y = 0;
 };
 
 class Scoreboard {
@@ -49,6 +56,8 @@ class Scoreboard {
   std::uint64_t mismatches() const { return mismatches_; }
   std::uint64_t cycle_mismatches() const { return cycle_mismatches_; }
   const std::optional<std::string>& first_divergence() const { return first_; }
+  /// Where it is about one.
+  const std::optional<DivergentPixel>& first_pixel() const { return first_pixel_; }
   const std::vector<BoundaryCount>& counts() const { return counts_; }
 
  private:
@@ -56,7 +65,7 @@ class Scoreboard {
   struct Place {
     const SnappedQuad* quad = nullptr;
     int x = -1, y = -1;
-    const char* unit = "pixel";
+    std::string_view unit = "pixel";
     int lane = -1;  ///< none: of all lanes, or of a machine with one
   };
   struct RingPlace {
@@ -70,7 +79,8 @@ class Scoreboard {
   template <class Locate>
   void signal(const char* name, std::uint32_t expected, std::uint32_t actual, Locate&& locate);
   void payload_differs(Boundary b, const std::uint32_t* actual, const Place& place);
-  std::string where(const Place& place) const;
+  /// Of the first difference; keeps its pixel.
+  std::string where(const Place& place);
   int lane_to_name(std::size_t lane) const { return config_.pixels_per_clock > 1 ? static_cast<int>(lane) : -1; }
   /// Of a quad of an earlier draw nothing is known.
   const SnappedQuad* quad_at(std::size_t ordinal) const {
@@ -92,6 +102,7 @@ class Scoreboard {
   std::uint64_t cycle_ = 0, mismatches_ = 0, cycle_mismatches_ = 0;
   Verdict verdict_;
   std::optional<std::string> first_;
+  std::optional<DivergentPixel> first_pixel_;
 
   // Which quad and tile a slot or a ring pointer stands for.
   std::vector<std::size_t> quad_of_slot_;
