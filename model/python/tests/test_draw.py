@@ -86,6 +86,16 @@ def test_picture_has_the_nearest_fragment():
     assert quadrille.picture(flat, "quad", (64, 64))[15, 20] == 0
 
 
+def test_saturated_values_are_flagged():
+    config = quadrille.Config(significand_bits=8)
+    most = 2 ** (7 + config.resolved("attribute_frac_bits")) - 1
+    vertices = quadrille.stress("any_w", 60, size=(64, 64), attributes=0).vertices
+    near = np.where(np.random.default_rng(1).random((60, 4)) < 0.5, most * 2.0**-24, most * 2.0**-24 - 1e-3)
+    drawn = quadrille.draw(vertices, near, names=["near"], config=config, size=(64, 64))
+    saturated = (drawn["flags"] & 128) != 0
+    assert 10 < saturated.sum() < len(drawn) and np.all(drawn["near_code"][saturated] == most)
+
+
 def test_no_copies():
     quads = quadrille.scene("sphere", (64, 64))
     assert not quads.vertices.flags.owndata and not quads.vertices.flags.writeable
@@ -251,6 +261,8 @@ def test_threads_give_the_same():
     quads = quadrille.stress("general", 300, size=(256, 256))
     one = quadrille.draw(quads, threads=1)
     assert len(one) > 10000
+    for name in ("depth", "a0", "a3"):
+        assert np.array_equal(one[name], one[name + "_code"] * 2.0**-24) and np.unique(one[name]).size > 1000
     for threads in (2, 5):
         assert np.array_equal(one, quadrille.draw(quads, threads=threads))
 
