@@ -96,7 +96,7 @@ class Checks:
                 command = [tool, "--dir", home, "script", *kind, *(f"--target={target}" for target in targets)]
                 done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
                 self.require(done.returncode == 0, f"bender script {' '.join(kind)}: {done.stderr}")
-                return done.stdout.splitlines()
+                return [line for line in done.stdout.splitlines() if line]
 
             for targets in ([], ["axi4_stream"], ["axi4_stream", "bench"]):
                 expected = self.listed() + sum((BENDER_TARGETS[target] for target in targets), [])
