@@ -38,7 +38,7 @@ def left_out(description, report):
     for test in description["tests"]:
         labels = next((p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"), [])
         command = test.get("command", [])
-        if "sample" in labels or not command:
+        if "sample" in labels or "page" in labels or not command:
             continue
         if any(argument.startswith("--gtest_filter=") for argument in command):
             program = command[0].rsplit("/", 1)[-1]
