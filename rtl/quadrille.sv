@@ -6,7 +6,7 @@
 //     front: vertex_assembly -> quad_setup   tiles: tile_walk -> tile_ring -> stamp_coverage -> sync_fifo -> pixel_emit
 //     pixel: pixel_pipeline -> fragment_fifo     multipliers: vertex_products (quad_setup, tile_context)
 //
-// Inside, a bundle X goes over with X_valid and its taker's take, or with a push that its taker's ready, or room, allows.
+// Inside, a bundle goes over with its valid and the taker's take, or with a push that the taker's ready or room allows.
 // Ports: README.md; number formats and clocks: SPEC.md. Both streams are valid/ready: valid never depends on ready,
 // payload is stable while valid and not ready. state_i is static while quads are under way (asserted). The pixel
 // pipeline never waits: pixel_emit counts the places of the fragment FIFO. clear_hidden_i goes with a clear of the

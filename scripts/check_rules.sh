@@ -81,7 +81,7 @@ while read -r rule settings; do
 done < <(cat "$work/rules" "$work/ranges")
 
 # No rule without a case.
-missing=$(grep -oE '[a-z][a-z0-9_]+_[a-z0-9_]+\)$' quadrille_config_check.sv | tr -d ')' | sort -u | grep -vxFf "$work/seen" || true)
+missing=$(grep -oP '  `QUADRILLE_REQUIRE\(\K[a-z0-9_]+' quadrille_config_check.sv | sort -u | grep -vxFf "$work/seen" || true)
 [ -z "$missing" ] || { echo "rules without a case: $missing" >&2; exit 1; }
 
 # Among the other modules, whose widths are nonsense then.
