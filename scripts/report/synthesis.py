@@ -12,7 +12,7 @@ import tomllib
 from report.files import Failed, InputError, MissingTool, write_text
 from report.program import PROGRAM, ROOT
 
-UNITS = ("vertex_assembly quad_setup vertex_products gradient_bank tile_walk tile_context tile_ring stamp_coverage vertex_bank row_functions forward_difference_column law_of_cosines normalise sqrt mean_value_ratios "
+UNITS = ("vertex_assembly quad_setup vertex_products gradient_bank tile_walk tile_context tile_ring stamp_coverage row_functions forward_difference_column law_of_cosines normalise sqrt mean_value_ratios "
          "mean_value_weights interpolate reciprocal fragment_output fragment_fifo").split()
 # Mapped once however often they are instantiated.
 SHARED = "fixed_point fp_multiply fp_raw_product fp_sum fp_term fp_add fp_product".split()
