@@ -5,7 +5,7 @@ when a hand-written source has more than 400 lines and no reason in LONG.
     scripts/check_layers.py [ROOT]      default: the source tree
 
 Every folder of model/, golden/ and tb/ that holds C++ sources is a node, and an #include "…" of another folder's file
-an edge. model/ may include model/ only, golden/ also golden/, tb/ and model/page everything. Tests (*_test.cpp, *_test_support.hpp)
+an edge. model/ may include model/ only, golden/ also golden/, tb/ everything, and so what ON_TOP names. Tests (*_test.cpp, *_test_support.hpp)
 stand beside their sources and may include anything of model/ and golden/. Prints the folders from the lowest up, each
 with what it includes; on failure the lines at fault, with status 1.
 
@@ -16,6 +16,7 @@ import re
 import sys
 
 LAYERS = ("model", "golden", "tb")
+ON_TOP = ("model/page",)  # for a browser: includes everything, and nothing includes it
 SUFFIXES = {".c", ".cpp", ".hpp", ".h"}
 TEST = re.compile(r"_test\.cpp$|test_support\.hpp$")
 LIMIT = 400  # lines of a source
@@ -42,11 +43,6 @@ LONG = {
 INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
 
 
-def layer_of(folder):
-    """model/page uses everything and nothing uses it, but it stands where one looks for it."""
-    return LAYERS.index("tb" if folder == pathlib.Path("model/page") else folder.parts[0])
-
-
 def includes(root):
     """(including folder, included folder) -> "file:line includes file" of every include that crosses folders."""
     edges = {}
@@ -66,6 +62,11 @@ def includes(root):
                 if folder and folder != file.parent and not (test and folder.parts[0] != "tb"):
                     edges.setdefault((file.parent, folder), []).append(f"{file}:{number} includes {match[1]}")
     return edges
+
+
+def height(folder):
+    """Position of its layer."""
+    return len(LAYERS) if folder.as_posix() in ON_TOP else LAYERS.index(folder.parts[0])
 
 
 def classes(root):
@@ -109,8 +110,7 @@ def main():
     for user, used in edges:
         if user != used:
             below[user].add(used)
-    faults = [line for (user, used), lines in edges.items()
-              if layer_of(used) > layer_of(user) for line in lines]
+    faults = [line for (user, used), lines in edges.items() if height(used) > height(user) for line in lines]
     if faults:
         print("includes of a higher layer (model < golden < tb):", *faults, sep="\n  ")
 
