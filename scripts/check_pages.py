@@ -21,7 +21,7 @@ import tomllib
 PROGRAM, ROOT = os.path.abspath(sys.argv[1]), pathlib.Path(__file__).resolve().parent.parent
 PAGES = {p: p.read_text(encoding="utf-8") for p in sorted(ROOT.rglob("*.md")) if p.relative_to(ROOT).parts[0] != "build"}
 LINES = {"README.md": 120, "tb/DECIDE.md": 120, "rtl/INTEGRATE.md": 120, "golden/EXPLORE.md": 120, "rtl/REJECTED.md": 100}
-COLUMNS, README_LINES, WORDS, APART = 120, 200, 27_000, ("rtl/SPEC.md", "golden/CHANGELOG.md")
+COLUMNS, README_LINES, WORDS, APART = 120, 200, 27_000, ("rtl/SPEC.md", "golden/CHANGELOG.md", "rtl/configurations/README.md")
 INPUT = "--scene bowtie --size 16x16"
 RUNS = f"""config --json @.json|scenes --json @.json|scenes --corner --json @.json|scenes --stress --json @.json|cache --json @.json
 fragments {INPUT} --out @.csv|fragments {INPUT} --errors --out @.csv --json @.json|render {INPUT} --png @.png --json @.json
