@@ -26,7 +26,7 @@ from report import placement, synthesis
 from report.program import end, options
 
 PLACER = ("--placer", "static", "--router", "router2")  # the quickest for 50,000 LUTs, and no slower a clock
-PARTS = {"vertices, setup, slots": "vertex_assembly quad_setup vertex_products quad_slots", "tiles, coverage": "tile_walk tile_context tile_ring stamp_coverage",
+PARTS = {"vertices, setup, slots": "vertex_assembly quad_setup vertex_products gradient_bank", "tiles, coverage": "tile_walk tile_context tile_ring stamp_coverage",
          "functions of a pixel": "row_functions forward_difference_column law_of_cosines", "normalise, roots": "normalise sqrt",
          "weights": "mean_value_ratios mean_value_weights", "interpolate": "interpolate", "quotients, output, FIFO": "reciprocal fragment_output fragment_fifo",
          "the rest": "the rest"}
