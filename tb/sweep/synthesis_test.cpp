@@ -177,13 +177,13 @@ TEST_F(Synthesis, EachTargetIsASynthesisOfItsOwn) {
   EXPECT_EQ(calls(), 2u);
   EXPECT_EQ(with.size.dsps, 5u);
   EXPECT_EQ(without.size.dsps, 2u);
-  // Estimated: 56 multipliers of 20 × 20 bits in four blocks each, eighteen of the tables in two, and twelve of the
-  // setup.
+  // Estimated: 52 products of 20 × 20 bits in a block and adders each, eighteen of the tables in two blocks, and twelve
+  // blocks of the setup.
   EXPECT_EQ(synthesis_table(std::vector{with, without}),
             "row,target,luts,flip_flops,dsps,block_rams,longest_path,area_um2,nand2,mhz,critical_path,cost,cost_luts,"
             "cost_dsps\n"
             "0,ecp5,2039,7,5,4,86,,,,," +
-                csv_number(with.cost) + "," + csv_number(with.cost_luts) + ",256\n0,ecp5-nodsp,2039,7,2,4,86,,,,," +
+                csv_number(with.cost) + "," + csv_number(with.cost_luts) + ",100\n0,ecp5-nodsp,2039,7,2,4,86,,,,," +
                 csv_number(without.cost) + "," + csv_number(without.cost_luts) + ",0\n");
   EXPECT_EQ(weights_of(ecp5).multiplier, 0);
   EXPECT_EQ(weights_of(tb::SynthesisTarget::ecp5_nodsp).dsp, 0);
