@@ -51,7 +51,7 @@ TEST_F(Cli, Help) {
     for (std::string line; std::getline(lines, line) && line.starts_with("  ");)
       if (line[2] != ' ') commands.push_back(command + " " + line.substr(2, line.find(' ', 2) - 2));
   }
-  EXPECT_EQ(commands.size(), 20u);
+  EXPECT_EQ(commands.size(), 21u);
   EXPECT_LT(wide_lines, narrow_lines);
 }
 

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <sstream>
 #include <string>
@@ -64,7 +66,14 @@ TEST_F(CliExplain, SameNumbersAsFragments) {
       std::istringstream row(line);
       for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
       cells.resize(8);
-      rows[std::stoi(cells[0])][cells[3]] = {cells[4], cells[5], cells[7]};
+      auto& of_quad = rows[std::stoi(cells[0])];
+      // A scene's attributes have names; the machine's slots are numbered, in their order.
+      const bool slot = cells[3] != "z" && !(cells[3][0] == 'l' && std::isdigit(cells[3][1]));
+      if (slot) {
+        const auto known = [](const auto& value) { return value.first[0] == 'a'; };
+        cells[3] = "a" + std::to_string(std::ranges::count_if(of_quad, known));
+      }
+      of_quad[cells[3]] = {cells[4], cells[5], cells[7]};
     }
     ASSERT_FALSE(rows.empty());
     std::size_t drawn = 0;
