@@ -164,8 +164,7 @@ void add_export_command(CLI::App& app, Invocation& invocation) {
       "  NAME_*.hex  what it reads in the folder where it runs\n\n"
       "In DIR: iverilog -g2012 -o tb NAME.sv NAME_tb.sv && vvp -N tb",
       "0 done; 2 usage or input error",
-      {"export --prefix quads --out ip",
-       "export --set depth_bits=16 --prefix small_quads --out ip"});
+      {"export --prefix quads --out ip", "export --set depth_bits=16 --prefix small_quads --out ip"});
   const auto options = std::make_shared<ExportOptions>();
   options->common.add_to(*command, false);
   command->add_option("--prefix", options->prefix, "What every name begins with; lower case")
