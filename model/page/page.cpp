@@ -5,11 +5,11 @@
 #include "golden/explain/explain.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "model/page/drawing.hpp"
-#include "model/page/json.hpp"
 #include "model/page/stepper.hpp"
 #include "model/page/sweep.hpp"
 #include "model/page/views.hpp"
 #include "model/port/snap.hpp"
+#include "model/support/json.hpp"
 
 #include <algorithm>
 #include <cstdint>

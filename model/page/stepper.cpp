@@ -1,7 +1,7 @@
 #include "model/page/stepper.hpp"
 
-#include "model/page/json.hpp"
 #include "model/port/snap.hpp"
+#include "model/support/json.hpp"
 
 namespace quadrille::page {
 namespace {

@@ -3,8 +3,8 @@
 #include "golden/analysis/error_bound.hpp"
 #include "golden/analysis/hardware_cost.hpp"
 #include "golden/reference/truth.hpp"
-#include "model/page/json.hpp"
 #include "model/port/snap.hpp"
+#include "model/support/json.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "model/front/quad_reject.hpp"
 #include "model/front/quad_setup.hpp"
 #include "model/front/tile_walk.hpp"
-#include "model/page/json.hpp"
 #include "model/page/views.hpp"
 #include "model/port/snap.hpp"
+#include "model/support/json.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,8 +6,8 @@
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/shading.hpp"
 #include "model/drive.hpp"
-#include "model/page/json.hpp"
 #include "model/port/snap.hpp"
+#include "model/support/json.hpp"
 
 #include <algorithm>
 #include <cmath>

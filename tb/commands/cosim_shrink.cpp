@@ -98,10 +98,7 @@ class FailedPassRuns {
       options.progress = [this](double) {
         if (out_of_time()) throw OutOfTime{};
       };
-    snapped_.clear();
-    for (std::size_t i = 0; i < draw.quads.size(); ++i)
-      snapped_.push_back(snap_as(pass_quad(draw.quads[i], failed_.check.pass), static_cast<std::uint32_t>(i),
-                                 options.config, options.state));
+    snapped_ = snap_pass(draw.quads, failed_.check.pass, options.config, options.state);
     if (!failed_.lockstep_ok) {
       report_ = run_lockstep(simulator, snapped_, options);
       return !report_.agreed();

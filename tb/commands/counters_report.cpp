@@ -58,10 +58,7 @@ std::optional<PerformanceCounters> count_draw(const EngineSettings& settings, st
   options.seed = settings.seed;
   options.stall = settings.stall;
   options.gap = settings.gap;
-  std::vector<SnappedQuad> snapped;
-  for (std::size_t i = 0; i < quads.size(); ++i)
-    snapped.push_back(snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), options.config, options.state));
-  return run_clocked_model_alone(snapped, options).counters;
+  return run_clocked_model_alone(snap_pass(quads, pass, options.config, options.state), options).counters;
 }
 
 }  // namespace quadrille::tb

@@ -16,9 +16,7 @@ CosimRow cosimulate_point(const CosimPoint& point, std::span<const WindowQuad> q
   const Pass pass =
       (planes ? plan_passes(attributes, false, point.config) : plan_passes(0, true, point.config)).front();
   state.attributes = static_cast<int>(pass.columns.size());
-  std::vector<SnappedQuad> snapped;
-  for (std::size_t i = 0; i < quads.size(); ++i)
-    snapped.push_back(snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), point.config, state));
+  const std::vector<SnappedQuad> snapped = snap_pass(quads, pass, point.config, state);
 
   LockstepOptions options;
   options.config = point.config;

@@ -54,9 +54,7 @@ CheckResult judge_untimed(std::span<const WindowQuad> quads, int attributes, con
   for (std::size_t p = 0; p < passes.size(); ++p) {
     DrawState state = draw_state;
     state.attributes = static_cast<int>(passes[p].columns.size());
-    std::vector<SnappedQuad> snapped;
-    for (std::size_t i = 0; i < quads.size(); ++i)
-      snapped.push_back(snap_as(pass_quad(quads[i], passes[p]), static_cast<std::uint32_t>(i), config, state));
+    const std::vector<SnappedQuad> snapped = snap_pass(quads, passes[p], config, state);
     sum.merge(judge_pass(quads, snapped, config, state, passes[p], p == 0, engine));
   }
   return sum;

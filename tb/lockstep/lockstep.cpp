@@ -2,6 +2,7 @@
 
 #include "model/drive.hpp"
 #include "model/port/bit_vector.hpp"
+#include "tb/device/forwarding_device.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/device_ahead.hpp"
 #include "tb/lockstep/driven_device.hpp"
@@ -132,38 +133,29 @@ AloneRun run_alone(Machine& machine, std::span<const SnappedQuad> quads, const L
 }
 
 /// A device whose waveform begins with a clock of the run.
-class TracedLater : public Device {
+class TracedLater : public ForwardingDevice {
  public:
   TracedLater(VerilatedDevice& device, const std::string& file, std::uint64_t from)
-      : device_(device), file_(file), from_(from) {}
+      : ForwardingDevice(device), traced_(device), file_(file), from_(from) {}
 
   void set_reset(bool active) override {
     if (!active) clocks_ = 0;  // counted from the end of reset
-    device_.set_reset(active);
-  }
-  void set_state(std::span<const std::uint32_t> words) override { device_.set_state(words); }
-  void set_vertex(std::span<const std::uint32_t> words) override { device_.set_vertex(words); }
-  void set_clear_hidden(bool active) override { device_.set_clear_hidden(active); }
-  void set_flush(bool active) override { device_.set_flush(active); }
-  void set_handshake(bool vertex_valid, bool fragment_ready) override {
-    device_.set_handshake(vertex_valid, fragment_ready);
+    ForwardingDevice::set_reset(active);
   }
   void settle() override {
     if (!open_ && clocks_ == from_) {
-      device_.open_trace(file_);
+      traced_.open_trace(file_);
       open_ = true;
     }
-    device_.settle();
+    ForwardingDevice::settle();
   }
-  const DeviceSample& sample() override { return device_.sample(); }
-  std::uint32_t counter(std::size_t index) override { return device_.counter(index); }
   void clock() override {
-    device_.clock();
+    ForwardingDevice::clock();
     ++clocks_;
   }
 
  private:
-  VerilatedDevice& device_;
+  VerilatedDevice& traced_;
   const std::string& file_;
   std::uint64_t from_, clocks_ = ~std::uint64_t{0} / 2;  ///< before the end of reset beyond every clock
   bool open_ = false;

@@ -22,7 +22,7 @@ constexpr std::array<std::pair<Boundary, int>, 5> behind_diff{{
 }  // namespace
 
 PixelWatch::PixelWatch(Device& device, const Config& config, int x, int y)
-    : device_(device),
+    : ForwardingDevice(device),
       tile_log2_(config.tile_log2),
       x_(x),
       y_(y),
@@ -31,13 +31,13 @@ PixelWatch::PixelWatch(Device& device, const Config& config, int x, int y)
 }
 
 const DeviceSample& PixelWatch::sample() {
-  const DeviceSample& sample = device_.sample();
+  const DeviceSample& sample = ForwardingDevice::sample();
   look(sample);
   return sample;
 }
 
 void PixelWatch::clock() {
-  device_.clock();
+  ForwardingDevice::clock();
   ++clock_;
 }
 

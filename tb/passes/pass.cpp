@@ -72,6 +72,15 @@ SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& conf
   }
 }
 
+std::vector<SnappedQuad> snap_pass(std::span<const WindowQuad> quads, const Pass& pass, const Config& config,
+                                   const DrawState& state) {
+  std::vector<SnappedQuad> snapped;
+  snapped.reserve(quads.size());
+  for (std::size_t i = 0; i < quads.size(); ++i)
+    snapped.push_back(snap_as(pass_quad(quads[i], pass), static_cast<std::uint32_t>(i), config, state));
+  return snapped;
+}
+
 void check_quad_count(std::size_t quads, const Config& config) {
   if (config.quad_id_bits < 32 && quads > std::size_t{1} << config.quad_id_bits)
     throw UsageError(std::to_string(quads) + " quads are more than quad_id_bits = " +

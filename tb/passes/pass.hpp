@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace quadrille::tb {
@@ -33,6 +34,10 @@ bool is_whole(const Pass& pass, const WindowQuad& quad);
 /// Snaps a quad under another id, its position in the draw say: ids of an input may repeat. Errors name the quad's own
 /// id.
 SnappedQuad snap_as(const WindowQuad& quad, std::uint32_t id, const Config& config, const DrawState& state);
+
+/// A pass of a draw, its quads under their positions.
+std::vector<SnappedQuad> snap_pass(std::span<const WindowQuad> quads, const Pass& pass, const Config& config,
+                                   const DrawState& state);
 
 /// Throws UsageError when `quads` positions do not fit the machine's quad ids.
 void check_quad_count(std::size_t quads, const Config& config);

@@ -123,8 +123,7 @@ struct Snapped {
 
   explicit Snapped(const Load& load) : pass(plan_passes(0, true, load.config).front()), state(load.state) {
     state.attributes = static_cast<int>(pass.columns.size());
-    for (std::size_t i = 0; i < load.input.quads.size(); ++i)
-      quads.push_back(snap_as(pass_quad(load.input.quads[i], pass), static_cast<std::uint32_t>(i), load.config, state));
+    quads = snap_pass(load.input.quads, pass, load.config, state);
   }
 };
 

@@ -137,11 +137,7 @@ DrawState ErrorBench::pass_state(const Pass& pass) const {
 }
 
 std::vector<SnappedQuad> ErrorBench::snap(const Pass& pass) const {
-  std::vector<SnappedQuad> snapped;
-  for (std::size_t i = 0; i < quads_.size(); ++i)
-    snapped.push_back(
-        snap_as(pass_quad(quads_[i], pass), static_cast<std::uint32_t>(i), settings_.config, pass_state(pass)));
-  return snapped;
+  return snap_pass(quads_, pass, settings_.config, pass_state(pass));
 }
 
 void ErrorBench::choose_quads(std::span<const WindowQuad> quads) {

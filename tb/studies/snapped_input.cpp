@@ -15,8 +15,7 @@ SnappedInput::SnappedInput(const InputOptions& options, const CommonOptions& com
   const Pass pass = plan_passes(input.attributes, false, config).front();
   state.attributes = static_cast<int>(pass.columns.size());
   try {
-    for (const WindowQuad& quad : input.quads)
-      quads.push_back(snap_as(pass_quad(quad, pass), static_cast<std::uint32_t>(quads.size()), config, state));
+    quads = snap_pass(input.quads, pass, config, state);
   } catch (const SnapError& error) {
     throw UsageError(describe(error, input));
   }

@@ -24,6 +24,18 @@ fs::path locate(const char* name, const char* file) {
                          installed.string() + "; run cmake --install, or keep the source tree");
 }
 
+/// In their order; throws SystemError without any: no SystemVerilog `what`.
+std::vector<fs::path> files_of(const fs::path& directory, const char* extension, const char* what) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  if (files.empty()) throw SystemError("no SystemVerilog " + std::string(what) + " in " + directory.string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace
 
 fs::path rtl_directory() { return locate("rtl", "quadrille.sv"); }
@@ -35,17 +47,8 @@ fs::path scripts_directory() { return locate("scripts", "compare_plot.py"); }
 fs::path glue_directory() { return locate("tb/device", "device_glue.cpp"); }
 
 std::vector<fs::path> rtl_sources(const fs::path& directory) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
-    if (entry.path().extension() == ".sv") files.push_back(entry.path());
-  }
-  if (files.empty()) throw SystemError("no SystemVerilog files in " + directory.string());
-  const auto is_package = [](const fs::path& p) { return p.stem().string().ends_with("_pkg"); };
-  std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
-    if (is_package(a) != is_package(b)) return is_package(a);
-    return a < b;
-  });
+  std::vector<fs::path> files = files_of(directory, ".sv", "files");
+  std::ranges::stable_partition(files, [](const fs::path& p) { return p.stem().string().ends_with("_pkg"); });
   return files;
 }
 
@@ -55,15 +58,6 @@ fs::path rtl_includes(const fs::path& directory) {
   return fs::is_directory(own, error) ? own : rtl_directory() / "include";
 }
 
-std::vector<fs::path> rtl_headers(const fs::path& includes) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(includes, error)) {
-    if (entry.path().extension() == ".svh") files.push_back(entry.path());
-  }
-  if (files.empty()) throw SystemError("no SystemVerilog headers in " + includes.string());
-  std::sort(files.begin(), files.end());
-  return files;
-}
+std::vector<fs::path> rtl_headers(const fs::path& includes) { return files_of(includes, ".svh", "headers"); }
 
 }  // namespace quadrille::tb

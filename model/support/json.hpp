@@ -1,4 +1,4 @@
-// Writes one JSON object.
+// Writes one JSON object as text, for what links no JSON library: golden/explain, model/page.
 #pragma once
 
 #include <charconv>
@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-namespace quadrille::page {
+namespace quadrille {
 
 class Json {
  public:
   Json& raw(std::string_view key, std::string_view value) {
-    text_ += (text_.empty() ? "{" : ",") + quoted(key) + ":" + std::string(value);
+    text_ += (text_.empty() ? "{" : ", ") + quoted(key) + ": " + std::string(value);
     return *this;
   }
   Json& put(std::string_view key, std::string_view value) { return raw(key, quoted(value)); }
@@ -33,7 +33,7 @@ class Json {
   template <class Values, class Text>
   static std::string list(const Values& values, Text&& text) {
     std::string out = "[";
-    for (const auto& value : values) out += (out.size() > 1 ? "," : "") + text(value);
+    for (const auto& value : values) out += (out.size() > 1 ? ", " : "") + text(value);
     return out + "]";
   }
   template <class Values>
@@ -56,4 +56,4 @@ class Json {
   std::string text_;
 };
 
-}  // namespace quadrille::page
+}  // namespace quadrille
