@@ -21,7 +21,8 @@ def test_notebook(path, tmp_path):
     notebook = nbformat.read(path, as_version=4)
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert all(not cell.outputs and cell.execution_count is None for cell in cells), "outputs are not committed"
-    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": tmp_path}}).execute()
+    # Seconds of a cell, which takes three. A reply whose wake-up is lost (pyzmq under asyncio) is found when they end.
+    nbclient.NotebookClient(notebook, timeout=60, resources={"metadata": {"path": tmp_path}}).execute()
     outputs = [output for cell in cells for output in cell.outputs]
     assert not [output for output in outputs if output.output_type == "error"]
     pictures = [output.data["image/png"] for output in outputs if "image/png" in output.get("data", {})]
