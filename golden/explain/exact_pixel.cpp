@@ -1,7 +1,7 @@
 #include "golden/explain/exact_pixel.hpp"
 
-#include "golden/reference/float128.hpp"
 #include "golden/reference/port_number.hpp"
+#include "golden/reference/rsqrt.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // Edge functions and the triangle rasterizer: exact signs, the tie rule, where nothing can be visible.
 #include "golden/methods/homogeneous.hpp"
+#include "model/support/float113.hpp"
 
 #include "golden/methods/adaptive.hpp"
 #include "golden/methods/quad_coverage.hpp"
@@ -25,10 +26,10 @@ TEST(DifferenceOfProducts, HasTheExactSign) {
   EXPECT_EQ(difference_of_products(3, 5, 15, 1), 0);
   Prng prng(1);
   for (int n = 0; n < 100'000; ++n) {
-    // Significands of 53 bits: __float128 holds both products, and the sign of their difference is exact.
+    // Significands of 53 bits: 113 bits hold both products, and the sign of their difference is exact.
     const double a = prng.uniform(1, 2), b = prng.uniform(1, 2), c = prng.uniform(1, 2);
     const double d = n % 2 == 0 ? prng.uniform(1, 2) : b * c / a;  // or products that agree to a few units
-    const __float128 exact = static_cast<__float128>(a) * d - static_cast<__float128>(b) * c;
+    const Float113 exact = static_cast<Float113>(a) * d - static_cast<Float113>(b) * c;
     const double v = difference_of_products(a, d, b, c);
     ASSERT_EQ((v > 0) - (v < 0), (exact > 0) - (exact < 0));
     ASSERT_EQ(v, -difference_of_products(b, c, a, d));

@@ -5,6 +5,7 @@
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/random_mesh.hpp"
 #include "golden/scenes/stress.hpp"
+#include "model/support/float113.hpp"
 #include "model/support/prng.hpp"
 
 #include <numbers>
@@ -182,9 +183,9 @@ bool near_tie(const WindowQuad& quad, int px, int py) {
   for (const auto& [i, j] : {Pixel{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}}) {
     const WindowVertex &p = quad.vertex[i], &q = quad.vertex[j];
     const auto minor = [](double a, double b, double c, double d) {
-      return static_cast<__float128>(a) * b - static_cast<__float128>(c) * d;
+      return static_cast<Float113>(a) * b - static_cast<Float113>(c) * d;
     };
-    const __float128 e = minor(p.y, q.w, q.y, p.w) * x + minor(q.x, p.w, p.x, q.w) * y + minor(p.x, q.y, q.x, p.y);
+    const Float113 e = minor(p.y, q.w, q.y, p.w) * x + minor(q.x, p.w, p.x, q.w) * y + minor(p.x, q.y, q.x, p.y);
     const double size = (std::abs(p.y * q.w) + std::abs(q.y * p.w)) * x +
                         (std::abs(q.x * p.w) + std::abs(p.x * q.w)) * y + std::abs(p.x * q.y) + std::abs(q.x * p.y);
     if (std::abs(static_cast<double>(e)) <= 16 * 0x1p-53 * size) return true;

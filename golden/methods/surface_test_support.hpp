@@ -2,6 +2,7 @@
 #pragma once
 
 #include "golden/methods/method.hpp"
+#include "model/support/float113.hpp"
 #include "model/support/prng.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace quadrille::golden::methods::test {
 
 using Point = std::array<double, 2>;
-using Real = __float128;
+using Real = Float113;
 
 inline std::vector<MethodSample> draw(const Method& method, const Quad& quad, const View& view) {
   std::vector<MethodSample> out;

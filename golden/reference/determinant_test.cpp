@@ -12,7 +12,6 @@
 #include "model/port/snap.hpp"
 
 #include <gtest/gtest.h>
-#include <quadmath.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,17 +43,17 @@ int corners_and_edges(const SnappedQuad& quad, int px, int py) {
 }
 
 /// The three sums of the equations vanish, beside the sum of the magnitudes.
-void expect_null_vector(const SnappedQuad& quad, const std::array<__float128, 4>& m, int px, int py) {
-  __float128 sum_x = 0, sum_y = 0, sum_r = 0, size = 0;
+void expect_null_vector(const SnappedQuad& quad, const std::array<Float113, 4>& m, int px, int py) {
+  Float113 sum_x = 0, sum_y = 0, sum_r = 0, size = 0;
   for (int i = 0; i < 4; ++i) {
     const test::PixelOffset s(quad.vertex[i], px, py);
-    const __float128 along = m[i] * s.length();
-    sum_x += m[i] * static_cast<__float128>(s.x);
-    sum_y += m[i] * static_cast<__float128>(s.y);
+    const Float113 along = m[i] * s.length();
+    sum_x += m[i] * static_cast<Float113>(s.x);
+    sum_y += m[i] * static_cast<Float113>(s.y);
     sum_r += i % 2 == 0 ? along : -along;
     size += fabsq(along);
   }
-  for (const __float128 sum : {sum_x, sum_y, sum_r}) {
+  for (const Float113 sum : {sum_x, sum_y, sum_r}) {
     ASSERT_LE(static_cast<double>(fabsq(sum)), static_cast<double>(truth_error * size));
   }
 }
@@ -63,7 +62,7 @@ void compare(const SnappedQuad& quad, const TruthQuad& truth, const test::Determ
              Seen& seen) {
   const ReferenceSample sample = truth.sample(px, py);
   if (!sample.covered) return;
-  const std::array<__float128, 4> m = truth.homogeneous_weights(px, py);
+  const std::array<Float113, 4> m = truth.homogeneous_weights(px, py);
   const test::DeterminantWeights exact = oracle.at(px, py);
   ASSERT_EQ(exact.determined, corners_and_edges(quad, px, py) < 2);
   if (!exact.determined) {
@@ -71,9 +70,9 @@ void compare(const SnappedQuad& quad, const TruthQuad& truth, const test::Determ
     expect_null_vector(quad, m, px, py);
     return;
   }
-  std::array<__float128, 4> part;
+  std::array<Float113, 4> part;
   for (std::size_t i = 0; i < 4; ++i) part[i] = m[i] * port_value(quad.vertex[i].k, config.significand_bits);
-  const __float128 sum = part[0] + part[1] + part[2] + part[3];
+  const Float113 sum = part[0] + part[1] + part[2] + part[3];
   const double tolerance = truth_error * sample.condition + exact.error;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto difference = static_cast<double>(fabsq(part[i] / sum - exact.lambda[i]));

@@ -13,11 +13,10 @@
 //   M = a Σ(−1)^i R_i n_i − n Σ(−1)^i R_i a_i, which is a − n t without its division
 #pragma once
 
+#include "golden/reference/float113_test_support.hpp"
 #include "golden/reference/port_number.hpp"
 #include "model/port/config.hpp"
 #include "model/port/records.hpp"
-
-#include <quadmath.h>
 
 #include <algorithm>
 #include <array>
@@ -32,11 +31,11 @@ struct PixelOffset {
 
   PixelOffset(const SnappedVertex& v, int px, int py)
       : x(v.x - static_cast<__int128>(v.w) * px), y(v.y - static_cast<__int128>(v.w) * py) {}
-  __float128 length() const { return sqrtq(static_cast<__float128>(x * x + y * y)); }
+  Float113 length() const { return sqrtq(static_cast<Float113>(x * x + y * y)); }
 };
 
 struct DeterminantWeights {
-  std::array<__float128, 4> lambda{};  ///< M_i k_i / Σ M_j k_j, eq. (10); 0 where not `determined`
+  std::array<Float113, 4> lambda{};  ///< M_i k_i / Σ M_j k_j, eq. (10); 0 where not `determined`
   /// No less than the error of any lambda: 16 roundings' worth of the sum of the magnitudes that form M, over |Σ M k|.
   double error = 0;
   bool determined = false;  ///< Σ M k is more than twice its error
@@ -51,7 +50,7 @@ class DeterminantQuad {
       const auto cross = [&](int p, int q) {
         return static_cast<__int128>(v[p].x) * v[q].y - static_cast<__int128>(v[q].x) * v[p].y;
       };
-      return static_cast<__float128>(v[i].w * cross(j, k) + v[j].w * cross(k, i) + v[k].w * cross(i, j));
+      return static_cast<Float113>(v[i].w * cross(j, k) + v[j].w * cross(k, i) + v[k].w * cross(i, j));
     };
     n_ = {minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3), -minor(0, 1, 2)};
     for (std::size_t i = 0; i < 4; ++i) k_[i] = port_value(v[i].k, config.significand_bits);
@@ -61,7 +60,7 @@ class DeterminantQuad {
     const auto& v = quad_.vertex;
     const std::array<PixelOffset, 4> s{{{v[0], px, py}, {v[1], px, py}, {v[2], px, py}, {v[3], px, py}}};
     const Four r{s[0].length(), -s[1].length(), s[2].length(), -s[3].length()};  // with (−1)^i
-    const auto area = [&](int i, int j) { return static_cast<__float128>(s[i].x * s[j].y - s[j].x * s[i].y); };
+    const auto area = [&](int i, int j) { return static_cast<Float113>(s[i].x * s[j].y - s[j].x * s[i].y); };
     const auto of_triangle = [&](int without) {  // (A_jk, A_ki, A_ij) at its vertices i, j, k
       const int i = (without + 1) & 3, j = (without + 2) & 3, k = (without + 3) & 3;
       Four a{};
@@ -82,7 +81,7 @@ class DeterminantQuad {
     }
     const Four a = of_triangle(without);
 
-    __float128 along_n = 0, along_a = 0, sum = 0;
+    Float113 along_n = 0, along_a = 0, sum = 0;
     double size_n = 0, size_a = 0, size_sum = 0;
     for (int i = 0; i < 4; ++i) {
       along_n += r[i] * n[i], along_a += r[i] * a[i];
@@ -111,9 +110,9 @@ class DeterminantQuad {
   }
 
  private:
-  using Four = std::array<__float128, 4>;
+  using Four = std::array<Float113, 4>;
 
-  static double magnitude(__float128 value) { return std::fabs(static_cast<double>(value)); }
+  static double magnitude(Float113 value) { return std::fabs(static_cast<double>(value)); }
   static int largest(const Four& of) {
     int at = 0;
     for (int i = 1; i < 4; ++i)

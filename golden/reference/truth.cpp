@@ -1,7 +1,7 @@
 #include "golden/reference/truth.hpp"
 
-#include "golden/reference/float128.hpp"
 #include "golden/reference/port_number.hpp"
+#include "golden/reference/rsqrt.hpp"
 #include "golden/scenes/regular_weights.hpp"
 
 #include <algorithm>

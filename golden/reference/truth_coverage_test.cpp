@@ -145,20 +145,20 @@ TEST(Truth, ConditionOfANotchAndItsMeaning) {
     const auto s = truth_of(quad).sample(0, 0);
     if (!s.covered || (s.flags & flag_tie)) continue;
     const auto half_tangent = [&](int i, int j) {
-      const __float128 xi = quad.vertex[i].x, yi = quad.vertex[i].y, xj = quad.vertex[j].x, yj = quad.vertex[j].y;
-      const __float128 area = xi * yj - yi * xj, dot = xi * xj + yi * yj;
-      const __float128 both = hypotq(xi, yi) * hypotq(xj, yj);
+      const Float113 xi = quad.vertex[i].x, yi = quad.vertex[i].y, xj = quad.vertex[j].x, yj = quad.vertex[j].y;
+      const Float113 area = xi * yj - yi * xj, dot = xi * xj + yi * yj;
+      const Float113 both = hypotq(xi, yi) * hypotq(xj, yj);
       return dot < 0 ? (both - dot) / area : area / (both + dot);
     };
-    const __float128 t0 = half_tangent(0, 1), t1 = half_tangent(1, 2), t2 = half_tangent(2, 3), t3 = half_tangent(3, 0);
-    const auto m = [&](int i, __float128 sum) {
+    const Float113 t0 = half_tangent(0, 1), t1 = half_tangent(1, 2), t2 = half_tangent(2, 3), t3 = half_tangent(3, 0);
+    const auto m = [&](int i, Float113 sum) {
       return sum * port_double(quad.vertex[i].k) / hypotq(quad.vertex[i].x, quad.vertex[i].y);
     };
-    const auto size = [](__float128 a, __float128 b) { return fabsq(a) + fabsq(b); };
-    const std::array<__float128, 4> mk{m(0, t3 + t0), m(1, t0 + t1), m(2, t1 + t2),
-                                       m(3, half_tangent(2, 0) * (1 - t2 * t3))};
-    const __float128 sum = mk[0] + mk[1] + mk[2] + mk[3];
-    const __float128 spread = m(0, size(t3, t0)) + m(1, size(t0, t1)) + m(2, size(t1, t2)) + m(3, size(t2, t3));
+    const auto size = [](Float113 a, Float113 b) { return fabsq(a) + fabsq(b); };
+    const std::array<Float113, 4> mk{m(0, t3 + t0), m(1, t0 + t1), m(2, t1 + t2),
+                                     m(3, half_tangent(2, 0) * (1 - t2 * t3))};
+    const Float113 sum = mk[0] + mk[1] + mk[2] + mk[3];
+    const Float113 spread = m(0, size(t3, t0)) + m(1, size(t0, t1)) + m(2, size(t1, t2)) + m(3, size(t2, t3));
     for (int i = 0; i < 4; ++i) ASSERT_NEAR(s.lambda[i], static_cast<double>(mk[i] / sum), double_ulp);
     ASSERT_NEAR(s.condition / static_cast<double>(spread / fabsq(sum)), 1, 1e-14);
     notches += s.condition > 1.5;

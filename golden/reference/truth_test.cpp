@@ -1,5 +1,5 @@
 // The truth against mathematics: the properties of the paper, an evaluation by angles, and every singular class.
-#include "golden/reference/float128.hpp"
+#include "golden/reference/rsqrt.hpp"
 #include "golden/reference/truth_test_support.hpp"
 
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@ namespace quadrille::golden {
 namespace {
 
 /// lambda' of the truth before rounding to double.
-std::array<__float128, 4> lambda128(const TruthQuad& truth, const SnappedQuad& quad, int px, int py) {
+std::array<Float113, 4> lambda128(const TruthQuad& truth, const SnappedQuad& quad, int px, int py) {
   auto m = truth.homogeneous_weights(px, py);
-  __float128 sum = 0;
+  Float113 sum = 0;
   for (int i = 0; i < 4; ++i) sum += m[i] *= port_double(quad.vertex[i].k);
   for (auto& v : m) v /= sum;
   return m;
@@ -22,13 +22,13 @@ TEST(Float128, RsqrtHasFullPrecision) {
   Random random(1);
   for (int n = 0; n < 200'000; ++n) {
     // All 113 bits of the argument are random; exponents of both parities.
-    const __float128 a =
-        scalbnq(1 + static_cast<__float128>(random.real(0, 1)) + static_cast<__float128>(random.real(0, 1)) * 0x1p-53,
+    const Float113 a =
+        scalbnq(1 + static_cast<Float113>(random.real(0, 1)) + static_cast<Float113>(random.real(0, 1)) * 0x1p-53,
                 random.integer(-200, 200));
-    const __float128 expected = 1 / sqrtq(a);  // two roundings of 2^-113
+    const Float113 expected = 1 / sqrtq(a);  // two roundings of 2^-113
     ASSERT_LE(static_cast<double>(fabsq(rsqrt(a) / expected - 1)), 0x1p-110);
   }
-  EXPECT_EQ(rsqrt(4), 0.5Q);
+  EXPECT_EQ(rsqrt(4), 0.5);
 }
 
 // ---------------------------------------------------------------- properties of the paper, section 3
@@ -155,14 +155,14 @@ TEST(Truth, HomogeneousIdentityAndOneSignExactlyInside) {
     const auto s = truth.sample(px, py);
     if (s.flags & flag_tie) continue;
     const auto m = truth.homogeneous_weights(px, py);
-    __float128 x = 0, y = 0, size = 0;
+    Float113 x = 0, y = 0, size = 0;
     int positive = 0, negative = 0;
     for (int i = 0; i < 4; ++i) {
       const auto& v = quad.vertex[i];
       const std::int64_t sx = v.x - static_cast<std::int64_t>(v.w) * px, sy = v.y - static_cast<std::int64_t>(v.w) * py;
       x += m[i] * sx;
       y += m[i] * sy;
-      size += fabsq(m[i]) * static_cast<__float128>(std::abs(sx) + std::abs(sy));
+      size += fabsq(m[i]) * static_cast<Float113>(std::abs(sx) + std::abs(sy));
       positive += m[i] > 0;
       negative += m[i] < 0;
     }
@@ -180,8 +180,8 @@ TEST(Truth, HomogeneousIdentityAndOneSignExactlyInside) {
 // ---------------------------------------------------------------- eq. 8 by angles
 
 struct ByAngles {
-  std::array<__float128, 4> lambda;
-  __float128 tolerance;
+  std::array<Float113, 4> lambda;
+  Float113 tolerance;
   bool in_front;
 };
 
@@ -193,11 +193,11 @@ struct ByAngles {
 /// two arms of (|v| + |s|) / |s|; its tangent by (1 + t^2)/2 dalpha + 4 u |t|; lambda' by 2 sum(dmu/w) / |sum(mu/w)|.
 /// The switched form is better than that. A factor of 4 covers what was left out.
 ByAngles by_angles(const SnappedQuad& quad, int px, int py) {
-  std::array<__float128, 4> x, y, r, arm, t, dt, inverse_w;
+  std::array<Float113, 4> x, y, r, arm, t, dt, inverse_w;
   for (int i = 0; i < 4; ++i) {
     const auto& v = quad.vertex[i];
-    const __float128 w = static_cast<__float128>(v.w) / one;
-    const __float128 vx = static_cast<__float128>(v.x) / one / w, vy = static_cast<__float128>(v.y) / one / w;
+    const Float113 w = static_cast<Float113>(v.w) / one;
+    const Float113 vx = static_cast<Float113>(v.x) / one / w, vy = static_cast<Float113>(v.y) / one / w;
     x[i] = vx - px;
     y[i] = vy - py;
     r[i] = hypotq(x[i], y[i]);
@@ -207,20 +207,20 @@ ByAngles by_angles(const SnappedQuad& quad, int px, int py) {
   }
   for (int i = 0; i < 4; ++i) {
     const int n = (i + 1) & 3;
-    __float128 alpha = atan2q(x[i] * y[n] - y[i] * x[n], x[i] * x[n] + y[i] * y[n]);
+    Float113 alpha = atan2q(x[i] * y[n] - y[i] * x[n], x[i] * x[n] + y[i] * y[n]);
     if (r[i] * r[n] < 0) alpha += M_PIq;
     t[i] = tanq(alpha / 2);
-    dt[i] = 0x1p-113Q * ((1 + t[i] * t[i]) / 2 * (4 + arm[i] + arm[n]) + 4 * fabsq(t[i]));
+    dt[i] = 0x1p-113 * ((1 + t[i] * t[i]) / 2 * (4 + arm[i] + arm[n]) + 4 * fabsq(t[i]));
   }
   ByAngles out;
-  __float128 sum = 0, sum_mu = 0, error = 0;
+  Float113 sum = 0, sum_mu = 0, error = 0;
   for (int i = 0; i < 4; ++i) {
     const int before = (i + 3) & 3;
-    const __float128 mu = (t[before] + t[i]) / r[i];
+    const Float113 mu = (t[before] + t[i]) / r[i];
     out.lambda[i] = mu * inverse_w[i];
     sum += out.lambda[i];
     sum_mu += mu;
-    error += (dt[before] + dt[i]) * fabsq(inverse_w[i] / r[i]) + 0x1p-113Q * (arm[i] + 4) * fabsq(out.lambda[i]);
+    error += (dt[before] + dt[i]) * fabsq(inverse_w[i] / r[i]) + 0x1p-113 * (arm[i] + 4) * fabsq(out.lambda[i]);
   }
   for (auto& l : out.lambda) l /= sum;
   out.tolerance = 4 * 2 * error / fabsq(sum);
@@ -248,7 +248,7 @@ TEST(Truth, AgreesWithAnglesOnInteriorPoints) {
     if (std::abs(s.visible_margin) > 1e-20) {
       ASSERT_EQ(s.visible, expected.in_front);
     }
-    sharp += expected.tolerance < 1e-28Q;
+    sharp += expected.tolerance < 1e-28;
     (s.flags & flag_homogeneous ? homogeneous : ordinary)++;
   }
   EXPECT_GT(ordinary, 3'000);

@@ -1,10 +1,9 @@
 // What the tests of truth share.
 #pragma once
 
+#include "golden/reference/float113_test_support.hpp"
 #include "golden/reference/test_quads.hpp"
 #include "golden/reference/truth.hpp"
-
-#include <quadmath.h>
 
 #include <cmath>
 

@@ -1,5 +1,6 @@
 // The snapping rules of snap.hpp: places, limits, refusals. snap_exact_test.cpp has the bits.
 #include "model/port/snap.hpp"
+#include "model/support/float113.hpp"
 
 #include "model/support/prng.hpp"
 
@@ -101,15 +102,15 @@ TEST(Snap, GuardBandCrossingIsSmooth) {
       ASSERT_EQ(b.w, 1 << 15);
     }
     const SnappedVertex a = snap_vertex({rng.uniform(0, 512), rng.uniform(0, 512), 0, 1});
-    using Line = std::array<__float128, 3>;
-    const auto line = [&](__float128 x, __float128 y, __float128 z) -> Line {
-      const __float128 ax = a.x / 32768.0, ay = a.y / 32768.0;
+    using Line = std::array<Float113, 3>;
+    const auto line = [&](Float113 x, Float113 y, Float113 z) -> Line {
+      const Float113 ax = a.x / 32768.0, ay = a.y / 32768.0;
       return {ay * z - y, x - ax * z, ax * y - ay * x};
     };
     const Line exact = line(bx, by, 1), snapped = line(b.x / 32768.0, b.y / 32768.0, b.w / 32768.0);
     for (const double c : {0.0, 128.0, 256.0, 511.0}) {
-      const __float128 x = along_x ? c : -(exact[1] * c + exact[2]) / exact[0];
-      const __float128 y = along_x ? -(exact[0] * c + exact[2]) / exact[1] : c;
+      const Float113 x = along_x ? c : -(exact[1] * c + exact[2]) / exact[0];
+      const Float113 y = along_x ? -(exact[0] * c + exact[2]) / exact[1] : c;
       if (!(x >= 0 && x <= 511 && y >= 0 && y <= 511)) continue;
       const double distance = static_cast<double>(snapped[0] * x + snapped[1] * y + snapped[2]) /
                               std::hypot(static_cast<double>(snapped[0]), static_cast<double>(snapped[1]));

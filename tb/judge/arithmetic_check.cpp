@@ -1,5 +1,6 @@
 // fp_from_signed, fp_multiply, fp_sum, sqrt, reciprocal against exact integers.
-#include "golden/reference/float128.hpp"
+#include "golden/reference/rsqrt.hpp"
+#include "model/support/float113.hpp"
 #include "model/support/prng.hpp"
 #include "tb/judge/function_tally.hpp"
 #include "tb/judge/stage_judge.hpp"
@@ -202,23 +203,23 @@ bool is_reciprocal(const PipelineFloat& a, const PipelineFloat& r, const TableLi
 std::string table_fault(bool sqrt, const Config& config, std::size_t index, const TableEntry& entry) {
   const std::size_t segments = std::size_t{1} << (sqrt ? config.sqrt_segments() : config.recip_segments());
   const bool quadratic = (sqrt ? config.sqrt_degree : config.recip_degree) == 2;
-  const __float128 h = (index < segments ? 1.0 : 2.0) / static_cast<double>(segments);
-  const __float128 x0 = (index < segments ? 1 : 2) + h * static_cast<double>(index % segments);
+  const Float113 h = (index < segments ? 1.0 : 2.0) / static_cast<double>(segments);
+  const Float113 x0 = (index < segments ? 1 : 2) + h * static_cast<double>(index % segments);
   // In units of 2^-(S+3), at the Chebyshev points 1/2 - c, 1/2, 1/2 + c; the line goes through the outer two.
   const double unit = std::ldexp(1.0, config.significand_bits + Config::table_guard);
-  const auto at = [&](__float128 u) {
-    const __float128 x = x0 + h * u, r = golden::rsqrt(x);
+  const auto at = [&](Float113 u) {
+    const Float113 x = x0 + h * u, r = golden::rsqrt(x);
     return unit * (sqrt ? x * r / 2 : r * r);
   };
-  const __float128 three = 3, two = 2, c = quadratic ? three * golden::rsqrt(three) / 4 : two * golden::rsqrt(two) / 4;
-  const __float128 low = at(0.5 - c), middle = at(0.5), high = at(0.5 + c), slope = (high - low) / (2 * c);
-  const __float128 a2 = quadratic ? (high - 2 * middle + low) / (2 * c * c) : 0, a1 = slope - a2,
-                   a0 = (quadratic ? middle : (low + high) / 2) - slope / 2 + a2 / 4;
+  const Float113 three = 3, two = 2, c = quadratic ? three * golden::rsqrt(three) / 4 : two * golden::rsqrt(two) / 4;
+  const Float113 low = at(0.5 - c), middle = at(0.5), high = at(0.5 + c), slope = (high - low) / (2 * c);
+  const Float113 a2 = quadratic ? (high - 2 * middle + low) / (2 * c * c) : 0, a1 = slope - a2,
+                 a0 = (quadratic ? middle : (low + high) / 2) - slope / 2 + a2 / 4;
   const double sign = sqrt ? 1 : -1;
   struct Coefficient {
     const char* name;
     std::uint32_t actual;
-    __float128 exact;
+    Float113 exact;
   };
   // To nearest, ties apart: the program's own root ends more than 30 bits below them.
   for (const auto& [name, actual, exact] : {Coefficient{"c0", entry.c0, a0 + (sqrt ? 4 : 3)},

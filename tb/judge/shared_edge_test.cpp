@@ -3,6 +3,7 @@
 #include "golden/reference/port_number.hpp"
 #include "golden/scenes/random_mesh.hpp"
 #include "model/one_pixel.hpp"
+#include "model/support/float113.hpp"
 #include "model/support/prng.hpp"
 #include "tb/judge/judge.hpp"
 
@@ -83,7 +84,7 @@ void measure_edge(const std::array<const SnappedQuad*, 2>& quads, const Config& 
     if (!pixel.trace.on_edge) return;
     fragment[side] = pixel.trace.fragment;
     const auto m = golden::TruthQuad(quad, config, state).homogeneous_weights(at.x, at.y);
-    __float128 k = 0, w = 0, b = 0, z = 0;
+    Float113 k = 0, w = 0, b = 0, z = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       const auto port = [&](const PortNumber& v) { return golden::port_value(v, config.significand_bits); };
       k += m[i] * port(quad.vertex[i].k);

@@ -1,4 +1,5 @@
 #include "tb/sweep/position_data.hpp"
+#include "model/support/float113.hpp"
 
 #include "golden/reference/truth.hpp"
 #include "model/front/covered_pixels.hpp"
@@ -41,10 +42,10 @@ void fill_truth(PositionData& data, std::size_t block, const golden::TruthQuad& 
     }
     const golden::Coverage coverage = truth.cover(pixel_x(pixel), pixel_y(pixel));
     if (!coverage.covered) throw std::logic_error("the machine covers a pixel that exact arithmetic does not");
-    const std::array<__float128, 4> m = truth.homogeneous_weights(pixel_x(pixel), pixel_y(pixel));
-    __float128 size = 0;
-    for (const __float128 v : m) size += v < 0 ? -v : v;
-    const __float128 scale = size == 0 ? 0 : 1 / size;
+    const std::array<Float113, 4> m = truth.homogeneous_weights(pixel_x(pixel), pixel_y(pixel));
+    Float113 size = 0;
+    for (const Float113 v : m) size += v < 0 ? -v : v;
+    const Float113 scale = size == 0 ? 0 : 1 / size;
     for (std::size_t i = 0; i < 4; ++i) data.truth[block].m[i][lane] = static_cast<double>(m[i] * scale);
     const unsigned bit = 1u << lane;
     if (coverage.visible) data.visible[block] |= static_cast<std::uint8_t>(bit);

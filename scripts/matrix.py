@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""Runs README's two commands and the tests with other compilers, tools, processors and distributions.
+
+  scripts/matrix.py                       all rows: some hours on two cores
+  scripts/matrix.py debian13 clang16      these rows
+  scripts/matrix.py --list
+  scripts/matrix.py --write               rewrites scripts/MATRIX.md from all results under build/matrix
+
+For root on Debian 12. A row of a distribution begins with debootstrap and a clone of HEAD, so nothing but
+Debian's packages is there. build/matrix/ROW.log has all output, ROW.json the result that --write reads.
+
+Exit status: 0 all rows passed, 1 a row failed, 2 usage error, 3 not root.
+"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import time
+from dataclasses import dataclass, field
+
+from report.files import Failed, MissingTool, write_text
+from report.program import ROOT, end, options
+
+OUT = os.path.join(ROOT, "build", "matrix")
+PAGE = os.path.join(ROOT, "scripts", "MATRIX.md")
+BUILD = "cmake --preset release -B {build} -DCMAKE_CXX_COMPILER={compiler} -DCMAKE_CXX_FLAGS={flags} && cmake --build {build} -j {cores} --target quick_tests && " \
+        "ctest --test-dir {build} -L '^quick$' -j {cores} --output-on-failure --no-tests=error"
+
+
+@dataclass
+class Row:
+    what: str                                      # first cell of the table
+    commands: list                                 # in order; the first that fails ends the row
+    tools: list = field(default_factory=list)      # commands whose first line of output is the version
+    release: str = ""                              # of Debian, in a chroot; else this machine
+    packages: list = field(default_factory=list)   # of Debian, on this machine
+
+
+def built(compiler, flags=""):
+    return BUILD.format(compiler=compiler, flags=flags or "''", cores=os.cpu_count(), build=f"build/matrix/{compiler}{flags}")
+
+
+def newer(command):
+    return f"scripts/newer_tools.sh {command}"
+
+
+DEBIAN_TOOLS = ["g++ --version", "verilator --version", "yosys -V", "iverilog -V"]
+ROWS = {
+    "debian12": Row("Debian 12, bare", ["scripts/cosim.sh", "scripts/test.sh"], DEBIAN_TOOLS, "bookworm"),
+    "debian13": Row("Debian 13, bare", ["scripts/cosim.sh", "scripts/test.sh"], DEBIAN_TOOLS, "trixie"),
+    "newer": Row("Tools of PyPI", [newer("scripts/cosim.sh"), newer("scripts/check_lint.sh build/release/quadrille"), newer("scripts/size.py"),
+                                   newer("scripts/replay.sh golden/vectors/kept")],
+                 [newer("verilator --version"), newer("yosys -V")]),
+    "clang14": Row("Clang 14", [built("clang++-14")], ["clang++-14 --version"], packages=["clang-14"]),
+    "clang16": Row("Clang 16", [built("clang++-16")], ["clang++-16 --version"], packages=["clang-16"]),
+    "x86-64-v2": Row("`-march=x86-64-v2`", [built("g++", "-march=x86-64-v2")], ["g++ --version"]),
+    "avx2": Row("AVX2 alone", ["scripts/cosim.sh --lanes v3", "QUADRILLE_LANES=v3 scripts/test.sh --quick"], ["g++ --version"]),
+    "aarch64": Row("aarch64, by QEMU", ["scripts/lanes_test.sh arm"], ["aarch64-linux-gnu-g++ --version", "qemu-aarch64 --version"],
+                   packages=["g++-aarch64-linux-gnu", "qemu-user"]),
+}
+
+
+def main():
+    parser = options(__doc__)
+    parser.add_argument("row", nargs="*", metavar="ROW", help="rows to run (default: all)")
+    parser.add_argument("--list", action="store_true", help="print the rows and their commands")
+    parser.add_argument("--write", action="store_true", help="write the table; without ROW nothing is run")
+    args = parser.parse_args()
+    if unknown := [r for r in args.row if r not in ROWS]:
+        parser.error(f"no row {unknown[0]}; rows are {', '.join(ROWS)}")
+    if args.list:
+        for name, row in ROWS.items():
+            print(f"{name}\n  " + "\n  ".join(row.commands))
+        return 0
+    names = args.row or ([] if args.write else list(ROWS))
+    if names and os.geteuid() != 0:
+        raise MissingTool("needs root: it makes chroots and installs packages")
+    failed = [name for name in names if not run_row(name, ROWS[name])]
+    if args.write:
+        write_text(PAGE, page())
+    if names:
+        print(f"{len(names) - len(failed)} passed, {len(failed)} failed" + (f": {', '.join(failed)}" if failed else ""))
+    return 1 if failed else 0
+
+
+def run_row(name, row):
+    os.makedirs(OUT, exist_ok=True)
+    start = time.monotonic()
+    with open(os.path.join(OUT, f"{name}.log"), "w", encoding="utf-8") as log:
+        place = Chroot(name, row.release, log) if row.release else Here(row.packages, log)
+        with place:
+            done = []
+            for command in row.commands:
+                print(f"{name}: {command}", flush=True)
+                if place.run(command):
+                    done.append(command)
+                else:
+                    break
+            versions = [version(place.output(tool)) for tool in row.tools]
+    passed = len(done) == len(row.commands)
+    result = {"versions": versions, "done": done, "failed": None if passed else row.commands[len(done)], "commit": commit(),
+              "minutes": round((time.monotonic() - start) / 60)}
+    write_text(os.path.join(OUT, f"{name}.json"), json.dumps(result, indent=1) + "\n")
+    print(f"{name}: {'passed' if passed else 'FAILED, see ' + os.path.relpath(log.name)}", flush=True)
+    return passed
+
+
+class Here:
+    """The sources of this folder, on this machine."""
+    def __init__(self, packages, log):
+        self.log = log
+        if packages:
+            self.execute("apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends " + " ".join(packages), check=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def command(self, text):
+        return ["bash", "-c", text]
+
+    def execute(self, text, check=False):
+        self.log.write(f"\n$ {text}\n")
+        self.log.flush()
+        status = subprocess.run(self.command(text), cwd=ROOT, stdin=subprocess.DEVNULL, stdout=self.log, stderr=subprocess.STDOUT).returncode
+        if check and status:
+            raise Failed(f"{text}: exit status {status}; see {self.log.name}")
+        return status == 0
+
+    run = execute
+
+    def output(self, text):
+        return subprocess.run(self.command(text), cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+
+
+class Chroot(Here):
+    """A clone of HEAD in a fresh Debian that has git alone, in build/matrix/ROW."""
+    def __init__(self, name, release, log):
+        super().__init__(["debootstrap"], log)
+        self.root = os.path.join(OUT, name)
+        self.inside = False
+        shutil.rmtree(self.root, ignore_errors=True)
+        self.execute(f"debootstrap --variant=minbase --include=git,ca-certificates {release} '{self.root}'", check=True)
+        self.execute(f"git clone -q --no-hardlinks '{ROOT}' '{self.root}/quadrille'", check=True)
+
+    def __enter__(self):
+        for kind, folder in (("proc", "proc"), ("tmpfs", "dev/shm")):
+            os.makedirs(os.path.join(self.root, folder), exist_ok=True)
+            self.execute(f"mount -t {kind} {kind} '{self.root}/{folder}'", check=True)
+        self.inside = True
+        return self
+
+    def __exit__(self, *_):
+        self.inside = False
+        self.execute(f"umount '{self.root}/proc' '{self.root}/dev/shm'")
+
+    def command(self, text):
+        if not self.inside:
+            return super().command(text)
+        return ["env", "-i", "PATH=/usr/sbin:/usr/bin:/sbin:/bin", "HOME=/root", "LC_ALL=C.UTF-8", "chroot", self.root, "bash", "-c", f"cd /quadrille && {text}"]
+
+
+def version(text):
+    match = re.search(r"\d+(\.\d+)+", text)
+    program = text.split()[0].removesuffix(":") if text.split() else "?"
+    return f"{program} {match.group() if match else '?'}"
+
+
+def commit():
+    return subprocess.run(["git", "rev-parse", "--short=8", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def page():
+    lines = ["# Systems, compilers and tools tried", "",
+             "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone.", "",
+             "| row | versions | result | failed at | minutes | commit |", "|---|---|---|---|---|---|"]
+    for name, row in ROWS.items():
+        path = os.path.join(OUT, f"{name}.json")
+        if not os.path.exists(path):
+            lines.append(f"| {row.what} | | not run | | | |")
+            continue
+        with open(path, encoding="utf-8") as file:
+            r = json.load(file)
+        lines.append(f"| {row.what} | {', '.join(r['versions'])} | {'failed' if r['failed'] else 'passed'} | "
+                     f"{'`' + r['failed'] + '`' if r['failed'] else ''} | {r['minutes']} | {r['commit']} |")
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    end(main)
