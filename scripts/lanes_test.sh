@@ -26,9 +26,9 @@ mapfile -t sources < <(git ls-files 'model/*.cpp' 'golden/scenes/*.cpp' 'golden/
   grep -v '_test\.cpp$\|^model/\(examples\|c_api\|page\|python\)/')
 sources+=("${tests[@]}")
 gtest=/usr/src/googletest/googletest
-compile() { "$compiler" -std=gnu++20 -O2 -ffp-contract=off -frounding-math -Wno-psabi -I. -I"$gtest" -I"$gtest/include" -c "$1" -o "$out/$(tr / _ <<<"$1").o"; }
+compile() { "$compiler" -std=gnu++20 -O2 -ffp-contract=off -frounding-math -Wno-psabi -I. -I"$gtest" -I"$gtest/include" -DQUADRILLE_SOURCE_DIR="\"$root\"" -c "$1" -o "$out/$(tr / _ <<<"$1").o"; }
 export -f compile
-export compiler gtest out
+export compiler gtest out root
 printf '%s\n' "${sources[@]}" "$gtest/src/gtest-all.cc" "$gtest/src/gtest_main.cc" | xargs -P "$(nproc)" -I{} bash -ec 'compile {}'
 "$compiler" -static "$out"/*.o -o "$out/lanes_test" 2>"$out/link.log" || { cat "$out/link.log" >&2; exit 1; }
 "${run[@]}" "$out/lanes_test" --gtest_brief=1 --gtest_filter="$filter" || exit 1

@@ -11,6 +11,7 @@ inline long double fabsq(long double v) { return std::fabs(v); }
 inline long double hypotq(long double x, long double y) { return std::hypot(x, y); }
 inline long double scalbnq(long double v, int exponent) { return std::scalbn(v, exponent); }
 inline long double sqrtq(long double v) { return std::sqrt(v); }
+inline long double tanq(long double v) { return std::tan(v); }
 #else
 // Declared here: Clang does not find GCC's header.
 extern "C" {
@@ -19,5 +20,6 @@ quadrille::Float113 fabsq(quadrille::Float113 v);
 quadrille::Float113 hypotq(quadrille::Float113 x, quadrille::Float113 y);
 quadrille::Float113 scalbnq(quadrille::Float113 v, int exponent);
 quadrille::Float113 sqrtq(quadrille::Float113 v);
+quadrille::Float113 tanq(quadrille::Float113 v);
 }
 #endif

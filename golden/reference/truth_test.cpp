@@ -208,7 +208,7 @@ ByAngles by_angles(const SnappedQuad& quad, int px, int py) {
   for (int i = 0; i < 4; ++i) {
     const int n = (i + 1) & 3;
     Float113 alpha = atan2q(x[i] * y[n] - y[i] * x[n], x[i] * x[n] + y[i] * y[n]);
-    if (r[i] * r[n] < 0) alpha += M_PIq;
+    if (r[i] * r[n] < 0) alpha += 2 * atan2q(1, 0);  // pi
     t[i] = tanq(alpha / 2);
     dt[i] = 0x1p-113 * ((1 + t[i] * t[i]) / 2 * (4 + arm[i] + arm[n]) + 4 * fabsq(t[i]));
   }
