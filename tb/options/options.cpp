@@ -295,7 +295,9 @@ double probability(const char* name, double value) {
 void InputOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Input";
   app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
-  app.add_option("--mesh", mesh, "Polygon mesh (Wavefront OBJ)")->type_name("F.obj")->group(group);
+  app.add_option("--mesh", mesh, "Polygon mesh: OBJ, PLY, OFF, glTF")->type_name("F.obj|F.ply|…")->group(group);
+  app.add_flag("--merge-pairs", merge_pairs, "Join neighbouring triangles of --mesh to quads (golden/io/README.md)")
+      ->group(group);
   app.add_option("--camera", camera, "Camera for --mesh (default: frames the mesh)")->type_name("F.json")->group(group);
   app.add_option("--view", view,
                  "From where the default camera looks (default: front, slightly right and above)\n"

@@ -25,7 +25,7 @@ f 2/2 5/1 3/3
 def test_own_mesh_in_five_lines(tmp_path):
     path = tmp_path / "mesh.obj"
     path.write_text(MESH)
-    quads = quadrille.load_obj(path)
+    quads = quadrille.load_mesh(path)
     fragments = quadrille.draw(quads)
     uv = np.stack([fragments["u"], fragments["v"]], axis=1)
     assert uv.shape == (len(fragments), 2) and len(uv) > 20000 and uv.min() >= 0 and uv.max() <= 1
@@ -47,7 +47,7 @@ def test_cameras(tmp_path):
     assert loaded.text() == made.text() and loaded.eye == [0, 0, 4]
     a = quadrille.project(mesh, (64, 48), camera=loaded)
     (tmp_path / "mesh.obj").write_text(MESH)
-    b = quadrille.load_obj(tmp_path / "mesh.obj", (64, 48), camera=path)
+    b = quadrille.load_mesh(tmp_path / "mesh.obj", (64, 48), camera=path)
     assert np.array_equal(a.vertices, b.vertices)
     # By hand: perspective of 40 degrees, aspect 4/3, clip space to window.
     f = 1 / np.tan(np.radians(20))
