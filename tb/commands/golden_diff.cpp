@@ -217,7 +217,7 @@ void add_golden_diff_command(CLI::App& golden, Invocation& invocation) {
   command->add_option("B", options->b, "The other set or picture")->required()->check(CLI::ExistingPath);
   writes_file(
       *command,
-      command->add_option("--heat-map", options->heat_map, "Picture of the differences: logarithmic, black is equal"),
+      command->add_option("--heat-map", options->heat_map, "Picture of the differences, with a scale"),
       "png")
       ->group(output_group);
   writes_file(*command, command->add_option("--json", options->json, "JSON report; - is standard output"), "json")
