@@ -6,12 +6,12 @@
 #include "golden/io/mesh_format.hpp"
 #include "golden/io/text_input.hpp"
 
-#include <assimp/DefaultLogger.hpp>
-#include <assimp/Importer.hpp>
-#include <assimp/LogStream.hpp>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -63,10 +63,11 @@ class Importer {
     {
       Log log;
       // glTF names other files.
-      const aiScene* scene = format_ == MeshFormat::gltf
-                                 ? importer_.ReadFile(path_, aiProcess_ValidateDataStructure)
-                                 : importer_.ReadFileFromMemory(text.data(), text.size(), aiProcess_ValidateDataStructure,
-                                                                format_ == MeshFormat::ply ? "ply" : "off");
+      const aiScene* scene =
+          format_ == MeshFormat::gltf
+              ? importer_.ReadFile(path_, aiProcess_ValidateDataStructure)
+              : importer_.ReadFileFromMemory(text.data(), text.size(), aiProcess_ValidateDataStructure,
+                                             format_ == MeshFormat::ply ? "ply" : "off");
       check(log, scene);
       scene_ = scene;
     }
@@ -97,9 +98,8 @@ class Importer {
 
   void node(const aiNode& at, const aiMatrix4x4t<double>& above) {
     const aiMatrix4x4& m = at.mTransformation;
-    const aiMatrix4x4t<double> here =
-        above * aiMatrix4x4t<double>(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
-                                     m.d3, m.d4);
+    const aiMatrix4x4t<double> here = above * aiMatrix4x4t<double>(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1,
+                                                                   m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4);
     for (unsigned i = 0; i < at.mNumMeshes; ++i) mesh(at.mMeshes[i], here);
     for (unsigned i = 0; i < at.mNumChildren; ++i) node(*at.mChildren[i], here);
   }
@@ -184,12 +184,10 @@ class Importer {
 
   /// A unit normal of a placed surface.
   static Vec3 turned(const Vec3& n, const aiMatrix4x4t<double>& m, double sign) {
-    const Vec3 moved{(m.b2 * m.c3 - m.b3 * m.c2) * n[0] + (m.b3 * m.c1 - m.b1 * m.c3) * n[1] +
-                         (m.b1 * m.c2 - m.b2 * m.c1) * n[2],
-                     (m.a3 * m.c2 - m.a2 * m.c3) * n[0] + (m.a1 * m.c3 - m.a3 * m.c1) * n[1] +
-                         (m.a2 * m.c1 - m.a1 * m.c2) * n[2],
-                     (m.a2 * m.b3 - m.a3 * m.b2) * n[0] + (m.a3 * m.b1 - m.a1 * m.b3) * n[1] +
-                         (m.a1 * m.b2 - m.a2 * m.b1) * n[2]};
+    const Vec3 moved{
+        (m.b2 * m.c3 - m.b3 * m.c2) * n[0] + (m.b3 * m.c1 - m.b1 * m.c3) * n[1] + (m.b1 * m.c2 - m.b2 * m.c1) * n[2],
+        (m.a3 * m.c2 - m.a2 * m.c3) * n[0] + (m.a1 * m.c3 - m.a3 * m.c1) * n[1] + (m.a2 * m.c1 - m.a1 * m.c2) * n[2],
+        (m.a2 * m.b3 - m.a3 * m.b2) * n[0] + (m.a3 * m.b1 - m.a1 * m.b3) * n[1] + (m.a1 * m.b2 - m.a2 * m.b1) * n[2]};
     const double length = std::hypot(moved[0], moved[1], moved[2]);
     return length > 0 ? Vec3{sign * moved[0] / length, sign * moved[1] / length, sign * moved[2] / length} : n;
   }
@@ -206,8 +204,8 @@ class Importer {
     const auto note = [&](const std::string& text) { mesh_.notes.insert(mesh_.notes.begin(), text); };
     if (points_and_lines_ > 0) note(std::to_string(points_and_lines_) + " points and lines are not drawn");
     if (format_ != MeshFormat::gltf) return;
-    const auto triangles = static_cast<std::size_t>(
-        std::ranges::count_if(mesh_.faces, [](const Face& face) { return face.size() == 3; }));
+    const auto triangles =
+        static_cast<std::size_t>(std::ranges::count_if(mesh_.faces, [](const Face& face) { return face.size() == 3; }));
     if (mesh_.faces.size() < read_triangles_)
       note("FB_ngon_encoding: " + std::to_string(read_triangles_) + " triangles became " +
            std::to_string(mesh_.faces.size() - triangles) + " polygons, " + std::to_string(triangles) +

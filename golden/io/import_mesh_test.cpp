@@ -38,13 +38,9 @@ const std::string off_text =
 
 TEST_F(InDirectory, OffKeepsPolygons) {
   const Mesh mesh = import_mesh(write("cube.off", off_text), false);
-  EXPECT_EQ(faces_of(mesh), (Indices{{3, 2, 1, 0},
-                                     {0, 1, 5, 4},
-                                     {1, 2, 6, 5},
-                                     {2, 3, 7, 6},
-                                     {3, 0, 4, 7},
-                                     {4, 5, 8, 7},
-                                     {8, 5, 6, 9, 7}}));
+  EXPECT_EQ(
+      faces_of(mesh),
+      (Indices{{3, 2, 1, 0}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 8, 7}, {8, 5, 6, 9, 7}}));
   EXPECT_EQ(mesh.positions[9], (Vec3{0, 2, 1}));
   EXPECT_TRUE(mesh.texcoords.empty() && mesh.normals.empty() && mesh.colours.empty() && mesh.notes.empty());
   EXPECT_EQ(mesh.faces[0][0].texcoord, -1);
@@ -81,11 +77,12 @@ std::string bytes(const auto& values) {
 TEST_F(InDirectory, BinaryPly) {
   const std::array<float, 12> points{0, 0, 0, 1, 0, 0, 0.25, 0.25, 0, 0, 1, 0};  // concave at the third
   const std::array<std::int32_t, 4> corners{0, 1, 2, 3};
-  const Mesh mesh = import_mesh(
-      write("b.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                     "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
-                         bytes(points) + "\x04" + bytes(corners)),
-      false);
+  const Mesh mesh =
+      import_mesh(write("b.ply",
+                        "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+                            bytes(points) + "\x04" + bytes(corners)),
+                  false);
   EXPECT_EQ(faces_of(mesh), (Indices{{0, 1, 2, 3}}));
   EXPECT_EQ(mesh.positions[2], (Vec3{0.25, 0.25, 0}));
 }
@@ -93,9 +90,9 @@ TEST_F(InDirectory, BinaryPly) {
 /// Two quads, a pentagon and a triangle on seven vertices, each polygon a fan from its first corner.
 const std::array<float, 21> points{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0, 1.5, 1.5, 0};
 const std::array<float, 14> texture{0, 1, 1, 1, 1, 0, 0, 0, 0.5, 0.5, 0.25, 0.25, 0, 0};
-const std::array<std::uint16_t, 24> triangles{0, 1, 2, 0, 2, 3,           // quad
-                                              4, 5, 2, 4, 2, 1,           // quad
-                                              2, 5, 6,                    // triangle
+const std::array<std::uint16_t, 24> triangles{0, 1, 2, 0, 2, 3,            // quad
+                                              4, 5, 2, 4, 2, 1,            // quad
+                                              2, 5, 6,                     // triangle
                                               3, 0, 1, 3, 1, 4, 3, 4, 5};  // pentagon
 
 /// The buffer of the two lists of numbers, as m.bin.
@@ -170,14 +167,16 @@ TEST_F(InDirectory, BinaryGltf) {
 TEST_F(InDirectory, NodesPlaceMeshes) {
   write("m.bin", buffer());
   // A quarter turn about z, doubled, moved; its child mirrors x.
-  const std::string turned = R"("mesh":0,"translation":[10,0,0],"rotation":[0,0,0.70710678,0.70710678],"scale":[2,2,2])";
+  const std::string turned =
+      R"("mesh":0,"translation":[10,0,0],"rotation":[0,0,0.70710678,0.70710678],"scale":[2,2,2])";
   const Mesh mesh = import_mesh(write("m.gltf", gltf(ngon, turned)), false);
   EXPECT_EQ(faces_of(mesh), polygons);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(mesh.positions[2][i], (Vec3{8, 2, 0})[i], 1e-5) << i;
   const Mesh mirrored = import_mesh(write("m.gltf", gltf(ngon, R"("mesh":0,"scale":[-1,1,1])")), false);
   EXPECT_EQ(faces_of(mirrored)[0], (std::vector<int>{0, 3, 2, 1}));  // still counter-clockwise from +z
   EXPECT_EQ(mirrored.positions[2], (Vec3{-1, 1, 0}));
-  const Mesh twice = import_mesh(write("m.gltf", gltf(ngon, R"("mesh":0,"children":[1]},{"mesh":0,"scale":[1,1,3])")), false);
+  const Mesh twice =
+      import_mesh(write("m.gltf", gltf(ngon, R"("mesh":0,"children":[1]},{"mesh":0,"scale":[1,1,3])")), false);
   EXPECT_EQ(twice.faces.size(), 8u);
 }
 

@@ -63,7 +63,9 @@ class Merger {
   }
 
  private:
-  const Vec3& position(const Corner& corner) const { return mesh_.positions[static_cast<std::size_t>(corner.position)]; }
+  const Vec3& position(const Corner& corner) const {
+    return mesh_.positions[static_cast<std::size_t>(corner.position)];
+  }
 
   /// By value: some writers repeat a vertex for each face.
   template <class Values>
@@ -85,13 +87,21 @@ class Merger {
         const Corner &from = first[i], &to = first[(i + 1) % 3];
         if (!same(from, second[(j + 1) % 3]) || !same(to, second[j])) continue;
         const Corner &own = first[(i + 2) % 3], &other = second[(j + 2) % 3];
-        // Round the quad: from, other, to, own. Corner 0 is the end of the diagonal that the first triangle names first.
+        // Round the quad: from, other, to, own. Corner 0 is the end of the diagonal that the first triangle names
+        // first.
         Pair pair{i < 2 ? Face{from, other, to, own} : Face{to, own, from, other}, 0};
-        if (dot(normal(first), normal(second)) < 0) return {};
+        if (bend_cosine(first, second) < -0.5) return {};
         pair.skew = skew(pair.quad);
         return pair;
       }
     return {};
+  }
+
+  /// Of the angle between the normals; 1 where one has none.
+  double bend_cosine(const Face& first, const Face& second) const {
+    const Vec3 a = normal(first), b = normal(second);
+    const double lengths = std::sqrt(dot(a, a) * dot(b, b));
+    return lengths > 0 ? dot(a, b) / lengths : 1;
   }
 
   Vec3 normal(const Face& triangle) const {

@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 namespace quadrille::golden {
 namespace {
 
@@ -54,13 +58,22 @@ TEST(MergePairs, TheSharedEdgeIsTheDiagonal02) {
   }
 }
 
+/// Two triangles on the edge from (0, 0, 0) to (0, 1, 0), the second one's corner at (x, 0, z).
+std::string bent(double x, double z) {
+  return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv " + std::to_string(-x) + " 0 " + std::to_string(z) + "\nf 1 2 3\nf 1 3 4\n";
+}
+
+TEST(MergePairs, BentQuads) {
+  EXPECT_EQ(merged(bent(1, 0)).size(), 1u);
+  EXPECT_EQ(merged(bent(-0.4, 1)).size(), 1u);  // by 112 degrees
+}
+
 TEST(MergePairs, OnlyTrianglesOfOneQuad) {
   const auto stay = [](const std::string& text, std::size_t faces) { EXPECT_EQ(merged(text).size(), faces) << text; };
   stay(grid + "f 1 2 3\nf 1 4 3\n", 2);             // the other one is turned
   stay(grid + "f 1 2 4\nf 5 6 3\n", 2);             // a corner alone is shared
   stay(grid + "f 1 2 3\nf 2 5 6 3\nf 1 3 4\n", 3);  // a quad is between them
-  stay(grid + "v 1 1 9\nv 1 0.2 9\nf 1 2 3\nf 1 3 8\n", 2);
-  stay("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0.9 0 0.4\nf 1 2 3\nf 1 3 4\n", 2);  // folded over
+  stay(bent(-0.8, 1), 2);                           // by 129 degrees
   const std::string seam = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
   stay(grid + seam + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n", 1);
   stay(grid + seam + "f 1/1 2/2 3/3\nf 1/1 3/2 4/4\n", 2);  // other texture coordinates at one end

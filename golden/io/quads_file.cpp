@@ -28,8 +28,8 @@ std::string problem_of_names(std::span<const std::string> names, std::size_t att
   if (names.size() != attributes)
     return std::to_string(names.size()) + " names for " + std::to_string(attributes) +
            " attributes; a name for each is expected";
-  std::set<std::string_view> taken{"quad", "x", "y", "z", "front", "flags", "depth", "depth_code",
-                                   "l0",   "l1", "l2", "l3"};
+  std::set<std::string_view> taken{"quad",  "x",          "y",  "z",  "front", "flags",
+                                   "depth", "depth_code", "l0", "l1", "l2",    "l3"};
   for (const std::string& name : names) {
     const bool word = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
     if (!word || name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) || name.ends_with("_code") ||

@@ -299,10 +299,11 @@ void bind_meshes(nb::module_& m) {
       .def_ro("far", &golden::Camera::far)
       .def("__repr__", [](const golden::Camera& self) { return "Camera(" + golden::camera_text(self) + ")"; });
   nb::class_<golden::Mesh>(m, "Mesh", "A polygon mesh as a file has it.")
-      .def_static("load", load_mesh, "path"_a, "merge_pairs"_a = false,
-                  "Of a file in OBJ (v, vt, vn, f), PLY, OFF or glTF, by its name's ending.\n\n"
-                  "merge_pairs: joins neighbouring triangles to quads (golden/io/README.md), which glTF does not hold.\n"
-                  "Raises InputError with the file and, of OBJ, the line.")
+      .def_static(
+          "load", load_mesh, "path"_a, "merge_pairs"_a = false,
+          "Of a file in OBJ (v, vt, vn, f), PLY, OFF or glTF, by its name's ending.\n\n"
+          "merge_pairs: joins neighbouring triangles to quads (golden/io/README.md), which glTF does not hold.\n"
+          "Raises InputError with the file and, of OBJ, the line.")
       .def_static(
           "parse", [](const std::string& text, const std::string& name) { return golden::parse_obj(text, name); },
           "text"_a, "name"_a = "text", "Of an OBJ file's text; `name` stands for the file in messages.")

@@ -57,7 +57,7 @@ struct DrawInput {
   /// Attribute from which on they have these names; -1: none.
   int slot_of(std::initializer_list<std::string_view> names) const;
 
-  std::string remark;      ///< what the input lacks for its shading or its reader noted; empty: nothing
+  std::string remark;  ///< what the input lacks for its shading or its reader noted; empty: nothing
 };
 
 /// Reads a --mesh that is no OBJ (golden/io/import_mesh.hpp); the studies set it.

@@ -128,8 +128,9 @@ ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
     if (input.attributes >= 3) slots.normal = input.attributes >= 5 ? 2 : 0;
   }
   if (shade == "normal" && slots.normal < 0)
-    throw UsageError("--shade normal: the quads of " + input.name + " have " + std::to_string(input.attributes) +
-                     " attributes and so no normal (nx, ny, nz; without names three, or five with texture coordinates first)");
+    throw UsageError(
+        "--shade normal: the quads of " + input.name + " have " + std::to_string(input.attributes) +
+        " attributes and so no normal (nx, ny, nz; without names three, or five with texture coordinates first)");
   return slots;
 }
 
