@@ -296,7 +296,7 @@ void InputOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Input";
   app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
   app.add_option("--mesh", mesh, "Polygon mesh: OBJ, PLY, OFF, glTF")->type_name("F.obj|F.ply|…")->group(group);
-  app.add_flag("--merge-pairs", merge_pairs, "Join neighbouring triangles of --mesh to quads (golden/io/README.md)")
+  app.add_flag("--merge-pairs", merge_pairs, "Join triangles of --mesh that follow each other and share an edge:\nas many pairs as possible, then the squarest quads")
       ->group(group);
   app.add_option("--camera", camera, "Camera for --mesh (default: frames the mesh)")->type_name("F.json")->group(group);
   app.add_option("--view", view,
