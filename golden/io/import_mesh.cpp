@@ -14,9 +14,11 @@
 #include <assimp/LogStream.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <string_view>
 #include <vector>
 
 namespace quadrille::golden {
@@ -52,6 +54,32 @@ class Log {
   std::lock_guard<std::mutex> lock_;
 };
 
+/// assimp never comes back from a PLY header that does not end, and believes any count.
+void check_ply_header(std::string_view text, const std::string& path) {
+  constexpr std::array<std::string_view, 6> known{"ply", "format", "comment", "obj_info", "element", "property"};
+  std::size_t line = 1;
+  for (std::size_t at = 0; at < text.size(); ++line) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    TokenLines lines(text.substr(at, end - at), TokenLines::Continuation::none);
+    std::vector<Token> tokens;
+    lines.next(tokens);
+    at = end + (text.substr(end).starts_with("\r\n") ? 2 : 1);
+    const std::string_view word = tokens.empty() ? std::string_view() : tokens.front().text;
+    if (word == "end_header" && end < text.size()) return;
+    if (std::ranges::find(known, word) == known.end())
+      throw input_error(path, line,
+                        "the header has " + in_quotes(word) + "; comment, element, property, … and at last " +
+                            "end_header are expected");
+    if (word != "element") continue;
+    const Number count = parse_number(tokens.size() == 3 ? tokens[2].text : std::string_view());
+    if (!count.problem.empty() || count.value < 0 || count.value > static_cast<double>(text.size()))
+      throw input_error(path, line,
+                        "an element needs a name and a count that the file has room for, such as \"element "
+                        "vertex 8\"");
+  }
+  throw input_error(path, 0, "is cut off in its header; a line end_header is expected");
+}
+
 class Importer {
  public:
   explicit Importer(const std::string& path) : path_(path), format_(format_of_mesh(path)) {}
@@ -59,6 +87,7 @@ class Importer {
   Mesh run(bool pairs) {
     const std::string text = read_file(path_, "a mesh in " + std::string(name_of(format_)));
     if (text.empty()) throw failure("the file is empty; a mesh in " + std::string(name_of(format_)) + " is expected");
+    if (format_ == MeshFormat::ply) check_ply_header(text, path_);
     if (format_ == MeshFormat::gltf) ngons_ = ngon_primitives(text, path_);
     {
       Log log;

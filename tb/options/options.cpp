@@ -295,8 +295,10 @@ double probability(const char* name, double value) {
 void InputOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Input";
   app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
-  app.add_option("--mesh", mesh, "Polygon mesh: OBJ, PLY, OFF, glTF")->type_name("F.obj|F.ply|…")->group(group);
-  app.add_flag("--merge-pairs", merge_pairs, "Join triangles of --mesh that follow each other and share an edge:\nas many pairs as possible, then the squarest quads")
+  app.add_option("--mesh", mesh, "Polygon mesh: F.obj, F.ply, F.off, F.gltf, F.glb")->type_name("FILE")->group(group);
+  app.add_flag(
+         "--merge-pairs", merge_pairs,
+         "Join triangles of --mesh to quads: those that share\nan edge and follow each other, as many as possible")
       ->group(group);
   app.add_option("--camera", camera, "Camera for --mesh (default: frames the mesh)")->type_name("F.json")->group(group);
   app.add_option("--view", view,

@@ -189,7 +189,6 @@ class Compare {
     print_remark(scene.input, options_.common);
     check_methods(scene.input);
     const std::vector<int> sizes = crease_sizes();
-    stage_.emplace(options_.out);
 
     Progress progress("compare " + scene.input.name, options_.methods.size() * (sizes.size() + 1) + 2,
                       options_.common.show_progress());
@@ -203,6 +202,7 @@ class Compare {
                       ? compare::Crop(truth, reference)
                       : compare::Crop(options_.crop[0], options_.crop[1], options_.crop[2], options_.crop[3]));
     cell_ = cell_width();
+    stage_.emplace(options_.out);
 
     compare::Sheet sheet = sheet_frame(scene);
     std::vector<compare::Row> rows;

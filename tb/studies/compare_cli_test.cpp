@@ -163,7 +163,8 @@ TEST_F(CompareCli, CropAndZoom) {
   const std::string scene = "--scene fig10_concave --size 64x64 ";
   table(scene + "--methods split02,mvc --crop 20,24,44,40 --zoom 5");
   ASSERT_EQ(run("render --quiet --method split02 " + scene + "--png whole.png").status, 0);
-  const quadrille::golden::Image8 whole = quadrille::golden::load_png(file("whole.png")), sheet = quadrille::golden::load_png(file("d/sheet.png"));
+  const quadrille::golden::Image8 whole = quadrille::golden::load_png(file("whole.png")),
+                                  sheet = quadrille::golden::load_png(file("d/sheet.png"));
   const auto at = [](const quadrille::golden::Image8& image, int x, int y) {
     const auto first = image.rgba.begin() + (static_cast<std::ptrdiff_t>(y) * image.width + x) * 4;
     return std::vector<std::uint8_t>(first, first + 3);
@@ -185,7 +186,7 @@ TEST_F(CompareCli, WireframesLeaveThePictures) {
   table(options, "plain");
   table(options + "--wireframe", "mesh");
   const quadrille::golden::Image8 plain = quadrille::golden::load_png(file("plain/sheet.png")),
-                       mesh = quadrille::golden::load_png(file("mesh/sheet.png"));
+                                  mesh = quadrille::golden::load_png(file("mesh/sheet.png"));
   ASSERT_EQ(plain.width, mesh.width);
   EXPECT_GE(mesh.height, plain.height + 256);
   const auto differs = std::ranges::mismatch(plain.rgba, mesh.rgba).in1 - plain.rgba.begin();
