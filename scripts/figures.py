@@ -6,11 +6,14 @@
   scripts/figures.py --quadrille PATH --out DIR
 
 Writes DIR/index.html and DIR/FIGURE/SHEET/ for every figure of figures.toml.
-After a failure DIR keeps its former contents.
+Each sheet tells the time so far and about what is left.
+After a failure or an interruption DIR keeps its former pages and pictures. Finished
+sheets wait in DIR/.figures: the same command takes them and draws the rest.
 
 Exit status: 0 done, 1 a command failed, 2 usage or input error.
 """
 import argparse
+import fcntl
 import json
 import os
 import re
@@ -19,7 +22,7 @@ import shutil
 import struct
 import subprocess
 import sys
-import tempfile
+import time
 import tomllib
 from dataclasses import dataclass, field
 
@@ -92,12 +95,41 @@ def read_table(path=TABLE):
 # ---- drawing --------------------------------------------------------------------------------------------------------------------------
 
 
+def identity(quadrille):
+    """Of the program and of the one that it calls: sheets of another build are drawn anew."""
+    files = [os.path.realpath(quadrille), os.path.join(os.path.dirname(os.path.realpath(quadrille)), "quadrille-studies")]
+    return [[file, os.stat(file).st_size, os.stat(file).st_mtime_ns] for file in files if os.path.exists(file)]
+
+
+def is_drawn(record, key):
+    try:
+        with open(record, encoding="utf-8") as file:
+            return json.load(file) == key
+    except (OSError, ValueError):
+        return False
+
+
+def duration(seconds):
+    minutes = round(seconds / 60)
+    return f"{round(seconds)} s" if seconds < 90 else f"{minutes} min" if minutes < 90 else f"{minutes / 60:.1f} h"
+
+
 def draw(quadrille, figures, size, keep_exr, directory):
-    """Every sheet into `directory`, which is also the working directory of the commands."""
+    """Every sheet into `directory`, which is also the working directory of the commands; those that are there stay."""
+    program = identity(quadrille)
     jobs = [(figure, sheet) for figure in figures for sheet in figure.sheet]
-    for count, (figure, sheet) in enumerate(jobs, 1):
+    keys = {figure.folder(sheet): json.loads(json.dumps([sheet.command(figure.folder(sheet), size), keep_exr, program])) for figure, sheet in jobs}
+    records = {folder: os.path.join(directory, folder + ".drawn") for folder in keys}
+    todo = [(figure, sheet) for figure, sheet in jobs if not is_drawn(records[figure.folder(sheet)], keys[figure.folder(sheet)])]
+    if len(todo) < len(jobs):
+        print(f"{len(jobs) - len(todo)} of {len(jobs)} sheets are there from an earlier run", file=sys.stderr)
+    begin = time.monotonic()
+    for count, (figure, sheet) in enumerate(todo):
         folder = figure.folder(sheet)
-        print(f"[{count}/{len(jobs)}] {folder}", file=sys.stderr, flush=True)
+        passed = time.monotonic() - begin
+        left = f" ({duration(passed)} so far, about {duration(passed / count * (len(todo) - count))} left)" if count else ""
+        print(f"[{len(jobs) - len(todo) + count + 1}/{len(jobs)}] {folder}{left}", file=sys.stderr, flush=True)
+        shutil.rmtree(os.path.join(directory, folder), ignore_errors=True)
         os.makedirs(os.path.join(directory, folder))
         command = sheet.command(folder, size)
         try:
@@ -110,6 +142,23 @@ def draw(quadrille, figures, size, keep_exr, directory):
             for name in os.listdir(os.path.join(directory, folder)):
                 if name.endswith(".exr"):
                     os.remove(os.path.join(directory, folder, name))
+        with open(records[folder], "w", encoding="utf-8") as file:
+            json.dump(keys[folder], file)
+    for record in records.values():
+        os.remove(record)
+    return time.monotonic() - begin
+
+
+def stage(out):
+    """The folder of finished sheets, for this run alone, and what keeps others out."""
+    directory = os.path.join(out, ".figures")
+    os.makedirs(directory, exist_ok=True)
+    lock = os.open(directory, os.O_RDONLY)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise InputError(f"{out}: another figures.py draws into it; wait for it, or give another --out") from None
+    return directory, lock
 
 
 def move_into_place(figures, source, out):
@@ -230,14 +279,16 @@ def main():
     out = os.path.abspath(args.out)
     try:
         os.makedirs(out, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=out, prefix=".figures-") as aside:
-            draw(os.path.abspath(args.quadrille), figures, args.size, args.keep_exr, aside)
-            content = page(papers, figures, args.size, aside)
-            move_into_place(figures, aside, out)
+        aside, lock = stage(out)
+        seconds = draw(os.path.abspath(args.quadrille), figures, args.size, args.keep_exr, aside)
+        content = page(papers, figures, args.size, aside)
+        move_into_place(figures, aside, out)
+        shutil.rmtree(aside)
+        os.close(lock)
     except OSError as error:
         raise InputError(error) from None
     write_files(out, {"index.html": content})
-    print(f"{os.path.join(out, 'index.html')}: {len(figures)} figures", file=sys.stderr)
+    print(f"{os.path.join(out, 'index.html')}: {len(figures)} figures in {duration(seconds)}", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -108,14 +108,62 @@ class Drawing(unittest.TestCase):
     def draw(self, *arguments, **keywords):
         return run("--out", self.out, "--size", "64x64", *arguments, **keywords)
 
-    def test_sigterm_leaves_nothing(self):
-        with tempfile.TemporaryDirectory() as folder:
-            program = os.path.join(folder, "program")
-            with open(program, "w", encoding="utf-8") as file:
-                file.write("#!/bin/sh\nkill $PPID\nexec sleep 60\n")
-            os.chmod(program, 0o755)
-            self.assertEqual(self.draw("--only", "bloomenthal14", program=program).returncode, 143)
-        self.assertEqual(os.listdir(self.out), [])
+    def program(self, lines):
+        """A program that logs each call's scene, does what `lines` say and then what quadrille does."""
+        path = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "program")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(f'#!/bin/sh\necho "$3" >>"{path}.log"\n{lines}\nexec "{PROGRAM}" "$@"\n')
+        os.chmod(path, 0o755)
+        return path
+
+    @staticmethod
+    def calls(program):
+        with open(program + ".log", encoding="utf-8") as file:
+            return file.read().split()
+
+    def test_goes_on_after_an_interruption(self):
+        # The third sheet is interrupted, then fails, then is drawn: the first two are drawn once.
+        names = ["--only", "bloomenthal14"]
+        scenes = [sheet.scene for figure in figures.read_table()[1] if figure.name == names[1] for sheet in figure.sheet]
+        self.assertGreaterEqual(len(scenes), 3)
+        program = self.program(f'if [ "$3" = {scenes[2]} ] && [ ! -e "$0.2" ]; then [ ! -e "$0.1" ] || {{ touch "$0.2"; exit 7; }}; '
+                               'touch "$0.1"; kill $PPID; exec sleep 60; fi')
+        done = self.draw(*names, program=program)
+        self.assertEqual(done.returncode, 143)
+        self.assertRegex(done.stderr, r"\[3/\d+\] .* so far, about .* left\)")
+        self.assertEqual(os.listdir(self.out), [".figures"])
+        self.assertEqual(self.draw(*names, program=program).returncode, 1)
+        self.assertEqual(os.listdir(self.out), [".figures"])
+        done = self.draw(*names, program=program)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"2 of {len(scenes)} sheets are there", done.stderr)
+        self.assertRegex(done.stderr, r"1 figures in \d+ s\n$")
+        self.assertEqual(self.calls(program), [*scenes[:2], scenes[2], scenes[2], *scenes[2:]])
+        resumed = {name: self.read(name) for name in self.files() if name.endswith("table.csv")}
+        self.assertNotIn(".figures", os.listdir(self.out))
+        # A whole run gives the same tables, times apart, and draws everything anew.
+        self.assertEqual(self.draw(*names, program=program).returncode, 0)
+        self.assertEqual(self.calls(program)[-len(scenes):], scenes)
+        self.assertEqual(sorted(resumed), sorted(name for name in self.files() if name.endswith("table.csv")))
+
+    def test_sheets_of_another_size_or_program_are_drawn_anew(self):
+        failing = self.program('case "$*" in *32x32*) exit 7;; esac; [ "$3" != bloomenthal14_b ] || [ -e "$0.2" ] || { touch "$0.2"; exit 7; }')
+        scenes = [sheet.scene for figure in figures.read_table()[1] if figure.name == "bloomenthal14" for sheet in figure.sheet]
+        self.assertEqual(self.draw("--only", "bloomenthal14", program=failing).returncode, 1)
+        drawn = len(self.calls(failing)) - 1
+        self.assertGreaterEqual(drawn, 1)
+        self.assertEqual(self.draw("--only", "bloomenthal14", "--size", "32x32", program=failing).returncode, 1)
+        self.assertEqual(self.calls(failing)[-1], scenes[0])
+        os.utime(failing)
+        self.assertEqual(self.draw("--only", "bloomenthal14", program=failing).returncode, 0)
+        self.assertEqual(self.calls(failing)[-len(scenes):], scenes)
+
+    def test_two_runs_into_one_folder(self):
+        path, lock = figures.stage(self.out)
+        done = self.draw("--only", "bloomenthal3")
+        os.close(lock)
+        self.assertEqual((done.returncode, os.listdir(path)), (2, []))
+        self.assertIn("another figures.py draws into it", done.stderr)
 
     def test_pages_and_links(self):
         # Between them: two sheets of one scene, a wireframe, no perspective correction, methods with knobs, values that are missing.
@@ -159,7 +207,10 @@ class Drawing(unittest.TestCase):
 
     def test_a_failure_leaves_the_folder_alone(self):
         self.assertEqual(self.draw("--only", "bloomenthal3").returncode, 0)
-        before = {name: os.stat(self.path(name)).st_mtime_ns for name in self.files()}
+        def shown():
+            return {name: os.stat(self.path(name)).st_mtime_ns for name in self.files() if not name.startswith(".figures")}
+
+        before = shown()
         # Draws the first two commands and refuses the third.
         failing = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "failing")
         with open(failing, "w", encoding="utf-8") as file:
@@ -175,7 +226,7 @@ class Drawing(unittest.TestCase):
                 self.assertEqual(done.returncode, status)
                 self.assertIn(message, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
-                self.assertEqual({name: os.stat(self.path(name)).st_mtime_ns for name in self.files()}, before)
+                self.assertEqual(shown(), before)
         self.assertIn("no luck", done.stderr)
         self.assertIn("exit status 5", done.stderr)
 

@@ -17,6 +17,7 @@ packages=(
   opensta qflow-tech-osu018    # scripts/timing.py: static timing, and the standard cells that it times
   libgtest-dev librapidcheck-dev
   pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare
+  libassimp-dev                # meshes in PLY, OFF and glTF
   libegl1-mesa-dev libgl1-mesa-dri libepoxy-dev   # the engine shader: OpenGL without a window, in software
   clang-format                 # the format test
   python3 python3-matplotlib python3-plotly python3-yaml   # scripts/*.py; plots of scripts/sweep_report.py; lists of the RTL's files

@@ -1,6 +1,7 @@
 #include "golden/io/image_diff.hpp"
 
 #include "golden/io/error.hpp"
+#include "golden/io/heat_scale.hpp"
 
 #include <algorithm>
 #include <array>
@@ -104,7 +105,7 @@ Image8 heat_map(const ImageDiff& diff) {
     const std::array<std::uint8_t, 3> colour = heat_colour(static_cast<double>(value), most, heat_octaves);
     image.rgba.insert(image.rgba.end(), {colour[0], colour[1], colour[2], 255});
   }
-  return image;
+  return with_heat_scale(image, most, heat_octaves);
 }
 
 }  // namespace quadrille::golden

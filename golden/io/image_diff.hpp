@@ -40,7 +40,7 @@ ImageDiff diff_images(const ExrImage& a, const ExrImage& b, const std::string& a
 std::array<std::uint8_t, 3> heat_colour(double value, double most, int octaves);
 
 /// The largest differences as colours: black where there is none, then from dark violet to yellow on a logarithmic
-/// scale from max·2^-16 to max; white for a NaN.
+/// scale from max·2^-16 to max; white for what is not finite. The scale is below (heat_scale.hpp).
 Image8 heat_map(const ImageDiff& diff);
 
 }  // namespace quadrille::golden

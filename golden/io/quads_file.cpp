@@ -4,8 +4,11 @@
 #include "golden/io/error.hpp"
 #include "golden/io/text_input.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 namespace quadrille::golden {
 namespace {
@@ -20,11 +23,30 @@ std::string field_name(std::size_t index, std::size_t attributes) {
   return "v" + std::to_string(rest / attributes) + ".a" + std::to_string(rest % attributes);
 }
 
+/// What is wrong with names for that many attributes; empty: nothing.
+std::string problem_of_names(std::span<const std::string> names, std::size_t attributes) {
+  if (names.size() != attributes)
+    return std::to_string(names.size()) + " names for " + std::to_string(attributes) +
+           " attributes; a name for each is expected";
+  std::set<std::string_view> taken{"quad",  "x",          "y",  "z",  "front", "flags",
+                                   "depth", "depth_code", "l0", "l1", "l2",    "l3"};
+  for (const std::string& name : names) {
+    const bool word = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    if (!word || name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) || name.ends_with("_code") ||
+        !taken.insert(name).second)
+      return "the name " + in_quotes(name) + "; letters, digits and _ are expected, no name twice, and none of " +
+             "quad x y z front flags depth l0 l1 l2 l3 …_code";
+  }
+  return {};
+}
+
+constexpr std::string_view names_mark = "attributes:";
+
 class QuadsParser {
  public:
   explicit QuadsParser(const std::string& name) : name_(name) {}
 
-  std::vector<WindowQuad> parse(std::string_view text) {
+  std::vector<WindowQuad> parse(std::string_view text, std::vector<std::string>* names) {
     TokenLines lines(text, TokenLines::Continuation::none);
     std::vector<Token> tokens;
     std::vector<WindowQuad> quads;
@@ -35,10 +57,32 @@ class QuadsParser {
     }
     if (quads.empty())
       throw input_error(name_, 0, "no quad was found; a line of 16 or more numbers per quad is expected");
+    if (std::vector<std::string> found = named(text); names != nullptr) *names = std::move(found);
     return quads;
   }
 
  private:
+  /// The names in a comment before the first quad.
+  std::vector<std::string> named(std::string_view text) const {
+    std::vector<std::string> names;
+    for (std::size_t line = 1; line < first_line_; ++line) {
+      const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+      const std::string_view comment = text.substr(0, end);
+      text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
+      const std::size_t mark = comment.find_first_not_of("# \t\xef\xbb\xbf");
+      if (mark == std::string_view::npos || !comment.substr(mark).starts_with(names_mark)) continue;
+      const std::string words(comment.substr(mark + names_mark.size()));
+      TokenLines lines(words, TokenLines::Continuation::none);
+      std::vector<Token> tokens;
+      lines.next(tokens);
+      for (const Token& token : tokens) names.emplace_back(token.text);
+      if (const std::string problem = problem_of_names(names, attributes_); !problem.empty())
+        throw input_error(name_, line, "\"" + std::string(names_mark) + "\" has " + problem);
+      break;
+    }
+    return names;
+  }
+
   void check_count(std::span<const Token> tokens) {
     const std::size_t count = tokens.size();
     const std::size_t line = tokens.front().line;
@@ -132,13 +176,13 @@ void check(const std::string& path, std::span<const WindowQuad> quads) {
 
 }  // namespace
 
-std::vector<WindowQuad> load_quads(const std::string& path) {
-  return parse_quads(read_file(path, "a .quads text"), path);
+std::vector<WindowQuad> load_quads(const std::string& path, std::vector<std::string>* names) {
+  return parse_quads(read_file(path, "a .quads text"), path, names);
 }
 
-std::vector<WindowQuad> parse_quads(std::string_view text, const std::string& name) {
+std::vector<WindowQuad> parse_quads(std::string_view text, const std::string& name, std::vector<std::string>* names) {
   refuse_wide_text(text, name);
-  return QuadsParser(name).parse(text);
+  return QuadsParser(name).parse(text, names);
 }
 
 std::string quad_text(const WindowQuad& quad) {
@@ -156,11 +200,19 @@ std::string quad_text(const WindowQuad& quad) {
   return line;
 }
 
-void save_quads(const std::string& path, std::span<const WindowQuad> quads) {
+void save_quads(const std::string& path, std::span<const WindowQuad> quads, std::span<const std::string> names) {
   check(path, quads);
+  if (!names.empty())
+    if (const std::string problem = problem_of_names(names, quads.front().attribute[0].size()); !problem.empty())
+      throw input_error(path, 0, problem);
   AtomicFile file(path, AtomicFile::Dash::standard_output);
   file.write("# x y z w of v0, v1, v2, v3; then " + std::to_string(quads.front().attribute[0].size()) +
              " attributes of v0, of v1, of v2, of v3\n");
+  if (!names.empty()) {
+    std::string line = "# " + std::string(names_mark);
+    for (const std::string& name : names) line += " " + name;
+    file.write(line + '\n');
+  }
   for (const WindowQuad& quad : quads) file.write(quad_text(quad) + '\n');
   file.commit();
 }

@@ -54,6 +54,38 @@ TEST_F(InDirectory, QuadsRoundTripExactly) {
   }
 }
 
+TEST_F(InDirectory, NamesOfAttributesRoundTrip) {
+  std::vector<std::string> names{"old"};
+  parse_quads(good + "\n# attributes: u\n", "q", &names);  // after the first quad it is a comment
+  EXPECT_TRUE(names.empty());
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    parse_quads("# head" + end + end + " #  attributes:  height_m # metres" + end + good, "q", &names);
+    EXPECT_EQ(names, std::vector<std::string>{"height_m"});
+  }
+  const std::vector<WindowQuad> quads = random_quads(3, 5);
+  const std::vector<std::string> given{"u", "v", "nx", "ny", "nz"};
+  save_quads(path("n.quads"), quads, given);
+  expect_equal(load_quads(path("n.quads"), &names), quads);
+  EXPECT_EQ(names, given);
+  const std::string kept = read(path("n.quads"));
+  expect_input_error([&] { save_quads(path("n.quads"), quads, std::span(given).first(4)); }, path("n.quads"),
+                     {"4 names for 5 attributes"});
+  EXPECT_EQ(read(path("n.quads")), kept);
+}
+
+TEST(Quads, BadNamesOfAttributes) {
+  for (const auto& [given, problem] : {std::pair{"u v", "2 names for 1 attributes"},
+                                       {"", "0 names for 1 attributes"},
+                                       {"l0", "the name \"l0\""},
+                                       {"2u", "the name \"2u\""},
+                                       {"u,v", "the name \"u,v\""},
+                                       {"u_code", "the name \"u_code\""}})
+    expect_input_error([&, names = given] { parse_quads("\n# attributes: " + std::string(names) + "\n" + good, "q"); },
+                       "q:2", {problem});
+  expect_input_error([&] { parse_quads("# attributes: u u\n" + good + " 4 5 6 7\n", "q"); }, "q:1",
+                     {"the name \"u\"", "no name twice"});
+}
+
 TEST(Quads, ReadsCommentsAndNumbersDataLines) {
   const auto quads = parse_quads("# head\n\n" + good + " # tail\r\n  # between\n" + good + "#\n", "q");
   ASSERT_EQ(quads.size(), 2u);

@@ -1,5 +1,8 @@
 // Quads: from arrays, scenes, stress families, corner groups, and meshes with a camera.
 #include "golden/io/camera.hpp"
+#include "golden/io/import_mesh.hpp"
+#include "golden/io/merge_pairs.hpp"
+#include "golden/io/mesh_format.hpp"
 #include "golden/io/obj.hpp"
 #include "golden/io/quads_file.hpp"
 #include "golden/methods/method.hpp"
@@ -81,6 +84,21 @@ Quads from_arrays(const Doubles& vertices, const Doubles& values, std::vector<st
   return result;
 }
 
+golden::Mesh load_mesh(const std::filesystem::path& file, bool pairs) {
+  const std::string path = file.string();
+  if (const golden::MeshFormat format = golden::format_of_mesh(path); format != golden::MeshFormat::obj) {
+#ifdef QUADRILLE_MESH_IMPORT
+    return golden::import_mesh(path, pairs);
+#else
+    throw golden::InputError(path + ": this build reads no " + std::string(golden::name_of(format)) +
+                             "; install assimp (Debian: libassimp-dev) and build again, or use OBJ");
+#endif
+  }
+  golden::Mesh mesh = golden::load_obj(path);
+  if (pairs) golden::merge_pairs(mesh);
+  return mesh;
+}
+
 /// What a projection gives.
 Quads projected(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, AttributeSet set,
                 bool strict, std::string name) {
@@ -133,8 +151,8 @@ Quads corner(const std::string& group, const Config& config, const DrawState& st
 Quads load_quads(const std::filesystem::path& path) {
   Quads result;
   result.name = path.filename().string();
-  result.quads = golden::load_quads(path.string());
-  result.attributes = numbered(result.quads.front().attribute[0].size());
+  result.quads = golden::load_quads(path.string(), &result.attributes);
+  if (result.attributes.empty()) result.attributes = numbered(result.quads.front().attribute[0].size());
   return result;
 }
 
@@ -280,10 +298,12 @@ void bind_meshes(nb::module_& m) {
       .def_ro("near", &golden::Camera::near)
       .def_ro("far", &golden::Camera::far)
       .def("__repr__", [](const golden::Camera& self) { return "Camera(" + golden::camera_text(self) + ")"; });
-  nb::class_<golden::Mesh>(m, "Mesh", "A polygon mesh as an OBJ file has it.")
+  nb::class_<golden::Mesh>(m, "Mesh", "A polygon mesh as a file has it.")
       .def_static(
-          "load", [](const std::filesystem::path& path) { return golden::load_obj(path.string()); }, "path"_a,
-          "Of an OBJ file: v, vt, vn, f. Raises InputError with file and line.")
+          "load", load_mesh, "path"_a, "merge_pairs"_a = false,
+          "Of a file in OBJ (v, vt, vn, f), PLY, OFF or glTF, by its name's ending.\n\n"
+          "merge_pairs: joins neighbouring triangles to quads (golden/io/README.md), which glTF does not hold.\n"
+          "Raises InputError with the file and, of OBJ, the line.")
       .def_static(
           "parse", [](const std::string& text, const std::string& name) { return golden::parse_obj(text, name); },
           "text"_a, "name"_a = "text", "Of an OBJ file's text; `name` stands for the file in messages.")
@@ -334,7 +354,10 @@ void bind_input(nb::module_& m) {
   m.def("load_quads", load_quads, "path"_a);
   m.def(
       "save_quads",
-      [](const std::filesystem::path& path, const Quads& quads) { golden::save_quads(path.string(), quads.quads); },
+      [](const std::filesystem::path& path, const Quads& quads) {
+        const bool named = quads.attributes != numbered(quads.attributes.size());
+        golden::save_quads(path.string(), quads.quads, named ? quads.attributes : std::vector<std::string>{});
+      },
       "path"_a, "quads"_a);
   m.def("list_methods",
         [] { return described(golden::methods::list_methods(), [](const auto& info) { return info.what; }); });

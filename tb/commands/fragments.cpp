@@ -150,7 +150,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("fragments", "Write every fragment as a table, without depth test");
   end_help(*command,
            "Columns: quad,x,y,front,flags,l0,l1,l2,l3,z,... sorted by quad, y, x. Attributes have their names: u,v, "
-           "nx,ny,nz, px,py,pz, red,green,blue; those of files and families are a0,a1,...\n"
+           "nx,ny,nz, px,py,pz, red,green,blue; without names a0,a1,...\n"
            "F.npz has an array of each column: numpy.load(\"F.npz\")[\"u\"].\n"
            "Columns with --errors, a row per value: quad,x,y,value,drawn,truth,error,of_bound. A value is l0 to l3, z "
            "or an attribute; of_bound is |error| / bound.\n"

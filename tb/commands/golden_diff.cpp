@@ -215,10 +215,8 @@ void add_golden_diff_command(CLI::App& golden, Invocation& invocation) {
   const auto options = std::make_shared<DiffOptions>();
   command->add_option("A", options->a, "Set (directory) or picture")->required()->check(CLI::ExistingPath);
   command->add_option("B", options->b, "The other set or picture")->required()->check(CLI::ExistingPath);
-  writes_file(
-      *command,
-      command->add_option("--heat-map", options->heat_map, "Picture of the differences: logarithmic, black is equal"),
-      "png")
+  writes_file(*command,
+              command->add_option("--heat-map", options->heat_map, "Picture of the differences, with a scale"), "png")
       ->group(output_group);
   writes_file(*command, command->add_option("--json", options->json, "JSON report; - is standard output"), "json")
       ->group(output_group);

@@ -4,6 +4,8 @@
 #include "golden/io/camera.hpp"
 #include "golden/io/error.hpp"
 #include "golden/io/json_report.hpp"
+#include "golden/io/merge_pairs.hpp"
+#include "golden/io/mesh_format.hpp"
 #include "golden/io/obj.hpp"
 #include "golden/io/quads_file.hpp"
 #include "golden/io/text_input.hpp"
@@ -198,15 +200,27 @@ void load_scene(const InputOptions& options, const std::string& shade, int width
   if (input.layout == AttributeLayout::position) golden::fit_positions(input.quads, input.planes);
 }
 
+golden::Mesh read_mesh(const InputOptions& options) {
+  if (const golden::MeshFormat format = golden::format_of_mesh(options.mesh); format != golden::MeshFormat::obj) {
+    if (mesh_importer == nullptr)
+      throw StudyNeeded("--mesh " + options.mesh + ": the reader of " + std::string(golden::name_of(format)));
+    return mesh_importer(options.mesh, options.merge_pairs);
+  }
+  golden::Mesh mesh = golden::load_obj(options.mesh);
+  if (options.merge_pairs) golden::merge_pairs(mesh);
+  return mesh;
+}
+
 void load_mesh(const InputOptions& options, const std::string& shade, int width, int height, unsigned threads,
                DrawInput& input) {
-  const golden::Mesh mesh = golden::load_obj(options.mesh);
+  const golden::Mesh mesh = read_mesh(options);
   input.name = golden::readable(std::filesystem::path(options.mesh).filename().string());
   input.title = "mesh " + input.name;
   std::vector<std::string> arguments{"--mesh", options.mesh};
   for (const auto& [name, value] :
        {std::pair{"--camera", &options.camera}, std::pair{"--view", &options.view}, std::pair{"--up", &options.up}})
     if (!value->empty()) arguments.insert(arguments.end(), {name, *value});
+  if (options.merge_pairs) arguments.emplace_back("--merge-pairs");
   if (options.strict) arguments.emplace_back("--strict");
   input.option = golden::command_line(arguments);
   input.shade = shade.empty() ? "normal" : shade;
@@ -222,15 +236,23 @@ void load_mesh(const InputOptions& options, const std::string& shade, int width,
 }
 
 void load_quads_file(const InputOptions& options, const std::string& shade, DrawInput& input) {
-  input.quads = golden::load_quads(options.quads);
+  input.quads = golden::load_quads(options.quads, &input.attribute_names);
   input.name = golden::readable(std::filesystem::path(options.quads).filename().string());
   input.title = "quads " + input.name;
   input.option = golden::command_line(std::array<std::string, 2>{"--quads", options.quads});
   input.quads_file = options.quads;
   input.attributes = static_cast<int>(input.quads.front().attribute[0].size());
-  input.layout = AttributeLayout::file;
-  input.shade = shade.empty() ? "lambda" : shade;
-  need_no_object(input);
+  input.layout = input.attribute_names.empty() ? AttributeLayout::file : AttributeLayout::named;
+  const bool coloured = input.slot_of({"red", "green", "blue"}) >= 0;
+  if (!shade.empty())
+    input.shade = shade;
+  else if (input.slot_of({"u", "v"}) >= 0)
+    input.shade = "uv";
+  else if (input.slot_of({"nx", "ny", "nz"}) >= 0)
+    input.shade = "normal";
+  else
+    input.shade = coloured ? "colour" : "lambda";
+  if (input.shade != "colour" || !coloured) need_no_object(input);
 }
 
 void load_stress(const InputOptions& options, const std::string& shade, int width, int height, std::uint64_t seed,
@@ -269,6 +291,11 @@ std::vector<std::string> names_of(const std::vector<golden::SceneInfo>& scenes) 
 
 }  // namespace
 
+int DrawInput::slot_of(std::initializer_list<std::string_view> names) const {
+  const auto found = std::ranges::search(attribute_names, names);
+  return found.empty() ? -1 : static_cast<int>(found.begin() - attribute_names.begin());
+}
+
 int inputs_given(const InputOptions& options) {
   return static_cast<int>(!options.scene.empty()) + static_cast<int>(!options.mesh.empty()) +
          static_cast<int>(!options.quads.empty()) + static_cast<int>(!options.stress.empty()) +
@@ -294,6 +321,7 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, cons
     if ((value == &options.view || value == &options.up) && !value->empty() && !options.camera.empty())
       throw UsageError(std::string(name) + " conflicts with --camera " + options.camera);
   }
+  if (options.merge_pairs && options.mesh.empty()) throw UsageError("--merge-pairs needs --mesh");
   if (!shade.empty()) choose("shading", shade, shade_modes());
   DrawInput input;
   if (!options.scene.empty())

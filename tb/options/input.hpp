@@ -10,13 +10,24 @@
 #include "tb/options/options.hpp"
 
 #include <array>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace quadrille::tb {
 
 /// What the attributes of an input's quads are.
-enum class AttributeLayout { none, uv, normal, uv_normal, position, colour, file };
+enum class AttributeLayout {
+  none,
+  uv,
+  normal,
+  uv_normal,
+  position,
+  colour,
+  file,  ///< by place: u, v, then a normal
+  named  ///< by attribute_names
+};
 
 /// What pictures are lit by: directions in the mesh's space, from the surface.
 struct Lighting {
@@ -34,7 +45,7 @@ struct DrawInput {
   std::vector<std::array<golden::Vec2, 4>> textures;  ///< texture coordinates of every quad, likewise
   int attributes = 0;                                 ///< per vertex
   AttributeLayout layout = AttributeLayout::none;
-  std::vector<std::string> attribute_names;  ///< u, v, …; of files and families a0, a1, …
+  std::vector<std::string> attribute_names;  ///< u, v, …; without names a0, a1, …
   bool perspective = true;                   ///< as the scene wants it
   Cull cull = Cull::none;                    ///< likewise
   std::string shade = "lambda";              ///< shading that suits it
@@ -43,8 +54,14 @@ struct DrawInput {
   golden::CuttingPlanes planes;  ///< of shade `planes`, in the unit of the position attributes (a power of two)
   std::size_t faces = 0, triangles = 0, fanned_faces = 0, fan_primitives = 0, crossed_faces = 0, skipped_lines = 0;
   std::string quads_file;  ///< where the quads came from, if a .quads file
-  std::string remark;      ///< what the input lacks for its shading or its reader noted; empty: nothing
+  /// Attribute from which on they have these names; -1: none.
+  int slot_of(std::initializer_list<std::string_view> names) const;
+
+  std::string remark;  ///< what the input lacks for its shading or its reader noted; empty: nothing
 };
+
+/// Reads a --mesh that is no OBJ (golden/io/import_mesh.hpp); the studies set it.
+inline golden::Mesh (*mesh_importer)(const std::string& path, bool pairs) = nullptr;
 
 /// How many of --scene, --mesh, --quads, --stress and --corner are given.
 int inputs_given(const InputOptions& options);
@@ -52,7 +69,8 @@ int inputs_given(const InputOptions& options);
 /// Loads the one input of the options, and writes the automatic camera where --save-camera wants it. `shade` empty:
 /// what suits the input; otherwise the attributes are what that shading needs. A viewport of the state's size; corner
 /// groups look at the rest of the state and at the configuration too. Throws UsageError when not exactly one
-/// is given, a name is unknown or the input lacks what the shading needs, InputError for what a file holds.
+/// is given, a name is unknown or the input lacks what the shading needs, InputError for what a file holds, StudyNeeded
+/// for a mesh that is no OBJ without mesh_importer.
 DrawInput load_input(const InputOptions& options, const std::string& shade, const DrawState& state,
                      const Config& config, std::uint64_t seed, unsigned threads = 1);
 

@@ -295,7 +295,11 @@ double probability(const char* name, double value) {
 void InputOptions::add_to(CLI::App& app) {
   constexpr const char* group = "Input";
   app.add_option("--scene", scene, "Built-in scene; `quadrille scenes` lists them")->type_name("NAME")->group(group);
-  app.add_option("--mesh", mesh, "Polygon mesh (Wavefront OBJ)")->type_name("F.obj")->group(group);
+  app.add_option("--mesh", mesh, "Polygon mesh: F.obj, F.ply, F.off, F.gltf, F.glb")->type_name("FILE")->group(group);
+  app.add_flag(
+         "--merge-pairs", merge_pairs,
+         "Join triangles of --mesh to quads: those that share\nan edge and follow each other, as many as possible")
+      ->group(group);
   app.add_option("--camera", camera, "Camera for --mesh (default: frames the mesh)")->type_name("F.json")->group(group);
   app.add_option("--view", view,
                  "From where the default camera looks (default: front, slightly right and above)\n"

@@ -77,12 +77,13 @@ struct StateOptions {
   std::string spelled() const;
 };
 
-/// --scene --mesh --camera --view --up --save-camera --quads --stress --count --corner --strict, and --light
+/// --scene --mesh --merge-pairs --camera --view --up --save-camera --quads --stress --count --corner --strict, and
+/// --light
 struct InputOptions {
   std::string scene, mesh, camera, view, up, save_camera, quads, stress, corner;
   std::string light;  ///< of the commands that draw pictures
   std::uint64_t count = 1000;
-  bool strict = false;
+  bool strict = false, merge_pairs = false;
 
   /// The files among them.
   std::vector<std::string> files() const { return {mesh, camera, quads}; }

@@ -118,13 +118,19 @@ ShadeSlots shade_slots(const std::string& shade, const DrawInput& input) {
     slots.planes = input.planes;
     for (const auto& corner : input.corners) slots.facets.push_back(golden::facet_normal(corner));
   }
+  if (input.layout == AttributeLayout::named) {
+    slots.uv = input.slot_of({"u", "v"});
+    slots.normal = input.slot_of({"nx", "ny", "nz"});
+    slots.colour = input.slot_of({"red", "green", "blue"});
+  }
   if (input.layout == AttributeLayout::file) {
     if (input.attributes >= 2) slots.uv = 0;
     if (input.attributes >= 3) slots.normal = input.attributes >= 5 ? 2 : 0;
   }
   if (shade == "normal" && slots.normal < 0)
-    throw UsageError("--shade normal: the quads of " + input.name + " have " + std::to_string(input.attributes) +
-                     " attributes and so no normal (three, or five with texture coordinates first)");
+    throw UsageError(
+        "--shade normal: the quads of " + input.name + " have " + std::to_string(input.attributes) +
+        " attributes and so no normal (nx, ny, nz; without names three, or five with texture coordinates first)");
   return slots;
 }
 

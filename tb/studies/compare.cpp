@@ -16,10 +16,12 @@
 #include "tb/studies/compare/crop.hpp"
 #include "tb/studies/compare/frame_error.hpp"
 #include "tb/studies/compare/sheet.hpp"
+#include "tb/studies/compare/slopes.hpp"
 #include "tb/studies/compare/table.hpp"
 #include "tb/studies/compare_plot.hpp"
 #include "tb/studies/method_frame.hpp"
 #include "tb/studies/method_input.hpp"
+#include "tb/studies/method_lines.hpp"
 #include "tb/studies/method_timing.hpp"
 #include "tb/support/choices.hpp"
 #include "tb/support/errors.hpp"
@@ -53,15 +55,15 @@ struct CompareOptions {
   std::vector<std::string> methods;
   std::string out, shade, texture, reference = "refine:20";
   std::vector<int> crease_sizes;
-  int cell = 256, repeats = 3;
+  std::vector<int> crop;
+  int cell = 256, zoom = 0, repeats = 3;
   bool plot = false, wireframe = false;
 };
 
 /// Colours of the difference pictures for pixels without a difference.
 constexpr std::array<std::uint8_t, 3> nothing_colour{56, 56, 59}, missing_colour{225, 60, 50},
     extra_colour{60, 200, 225}, undefined_colour{255, 0, 255}, other_colour{70, 130, 90};
-constexpr double heat_most = 1;
-constexpr int heat_octaves = 14;
+const compare::SheetScale differences{"difference", 1, 14}, bends{"change of slope, per picture side", 4, 12};
 
 /// One input at one size, with what drawing and shading it takes.
 struct Scene {
@@ -135,55 +137,22 @@ golden::Image8 difference_picture(const compare::AttributeImage& image, const co
     else if (image.quad[i] != reference.quad[i])
       colour = other_colour;
     else if (image.covered(i))
-      colour = golden::heat_colour(static_cast<double>(error.image[i]), heat_most, heat_octaves);
+      colour = golden::heat_colour(static_cast<double>(error.image[i]), differences.most, differences.octaves);
     picture.rgba.insert(picture.rgba.end(), {colour[0], colour[1], colour[2], 255});
   }
   return picture;
 }
 
-/// The outlines that lie in front of the eye, as closed lines of this width on the screen; their mean edge in pixels.
-std::vector<compare::Polyline> screen_outlines(const std::vector<std::vector<WindowVertex>>& outlines, double width,
-                                               double& edge) {
-  std::vector<compare::Polyline> lines;
-  double length = 0;
-  std::size_t edges = 0;
-  for (const std::vector<WindowVertex>& outline : outlines) {
-    if (std::ranges::any_of(outline, [](const WindowVertex& v) { return !(v.w > 0); })) continue;
-    compare::Polyline line;
-    double round = 0;
-    for (std::size_t i = 0; i <= outline.size(); ++i) {
-      const WindowVertex& v = outline[i % outline.size()];
-      line.points.push_back({v.x / v.w, v.y / v.w});
-      if (i == 0) continue;
-      const auto &a = line.points[i - 1], &b = line.points[i];
-      round += std::hypot(b[0] - a[0], b[1] - a[1]);
-      ++edges;
-    }
-    length += round;
-    line.opacity =
-        compare::wireframe_opacity(round / static_cast<double>(std::max<std::size_t>(outline.size(), 1)), width);
-    lines.push_back(std::move(line));
+/// Where attributes bend: a crease is a line.
+golden::Image8 bend_picture(const compare::AttributeImage& image) {
+  golden::Image8 picture{image.width, image.height, {}};
+  for (const float change : compare::slope_changes(image)) {
+    const std::array<std::uint8_t, 3> colour =
+        std::isnan(change) ? nothing_colour
+                           : golden::heat_colour(static_cast<double>(change), bends.most, bends.octaves);
+    picture.rgba.insert(picture.rgba.end(), {colour[0], colour[1], colour[2], 255});
   }
-  edge = edges ? length / static_cast<double>(edges) : 0;
-  return lines;
-}
-
-/// The method's geometry over a picture; the quads themselves where it is finer than lines can show.
-void draw_wireframe(const std::string& method, const Scene& scene, golden::Image8& picture) {
-  constexpr double finest_edge = 5;  // pixels
-  const std::unique_ptr<methods::Method> drawn = methods::make_method(method);
-  const methods::View view = method_view(scene.settings.state);
-  std::vector<std::vector<WindowVertex>> outlines, quads;
-  for (const methods::Quad& quad : method_quads(scene.input, method)) {
-    quads.emplace_back(quad.vertex.begin(), quad.vertex.end());
-    const auto of_quad = drawn->wireframe(quad, view);
-    outlines.insert(outlines.end(), of_quad.begin(), of_quad.end());
-  }
-  const double width = std::max(0.6, picture.width / 512.0);
-  double edge = 0;
-  std::vector<compare::Polyline> lines = screen_outlines(outlines, width, edge);
-  if (edge < finest_edge) lines = screen_outlines(quads, width, edge);
-  compare::draw_lines(picture, lines, {255, 255, 255}, width);
+  return picture;
 }
 
 /// A method's full name; a wrong one is told with the option that holds it.
@@ -213,14 +182,13 @@ class Compare {
       : options_(options), arguments_(arguments) {}
 
   int run() {
-    check_options();
     const auto [width, height] = options_.common.viewport(options_.common.config());
     width_ = width, height_ = height;
+    check_options();
     const Scene scene = load_scene(options_, width, height);
     print_remark(scene.input, options_.common);
     check_methods(scene.input);
     const std::vector<int> sizes = crease_sizes();
-    stage_.emplace(options_.out);
 
     Progress progress("compare " + scene.input.name, options_.methods.size() * (sizes.size() + 1) + 2,
                       options_.common.show_progress());
@@ -230,6 +198,11 @@ class Compare {
     const compare::AttributeImage reference =
         attribute_image(draw_method(options_.reference, scene.input, scene.settings), scene.input);
     progress.set(++done);
+    crop_.emplace(options_.crop.empty()
+                      ? compare::Crop(truth, reference)
+                      : compare::Crop(options_.crop[0], options_.crop[1], options_.crop[2], options_.crop[3]));
+    cell_ = cell_width();
+    stage_.emplace(options_.out);
 
     compare::Sheet sheet = sheet_frame(scene);
     std::vector<compare::Row> rows;
@@ -250,13 +223,7 @@ class Compare {
           time_method(options_.methods[m], scene.input, scene.settings.state, options_.repeats).ns_per_pixel);
     progress.finish();
 
-    const compare::Crop crop(truth, reference);
-    for (compare::SheetRow& row : sheet.rows)
-      for (std::optional<compare::SheetCell>& cell : row.cells) cell->picture = crop.of(cell->picture);
-    if (crop.x1 - crop.x0 < width_)
-      sheet.subtitle += "; shown from (" + std::to_string(crop.x0) + ", " + std::to_string(crop.y0) + ") to (" +
-                        std::to_string(crop.x1) + ", " + std::to_string(crop.y1) + ")";
-    golden::save_png(stage_->path("sheet.png"), compare::draw_sheet(sheet, options_.cell), golden::PngFormat::rgb8);
+    golden::save_png(stage_->path("sheet.png"), compare::draw_sheet(sheet, cell_), golden::PngFormat::rgb8);
     write_tables(scene, rows, sizes);
     if (options_.plot)
       write_plot(scene.input, scene.settings, stage_->folder().string(), options_.common, arguments_, options_.repeats);
@@ -282,6 +249,11 @@ class Compare {
     if (const int most = compare::most_columns(options_.cell); static_cast<int>(options_.methods.size()) > most)
       throw UsageError("--methods: " + std::to_string(options_.methods.size()) + " columns of --cell " +
                        std::to_string(options_.cell) + " pixels do not fit the sheet; at most " + std::to_string(most));
+    if (const std::vector<int>& c = options_.crop;
+        !c.empty() && (c[0] < 0 || c[1] < 0 || c[2] <= c[0] || c[3] <= c[1] || c[2] > width_ || c[3] > height_))
+      throw UsageError("--crop: expected X0,Y0,X1,Y1 with 0 <= X0 < X1 <= " + std::to_string(width_) +
+                       " and 0 <= Y0 < Y1 <= " + std::to_string(height_) + ", such as --crop 0,0," +
+                       std::to_string((width_ + 1) / 2) + "," + std::to_string((height_ + 1) / 2));
     std::vector<std::string> read = options_.input.files();
     read.insert(read.end(), {options_.common.config_file, options_.texture});
     check_outputs({options_.input.save_camera, options_.common.json}, read);
@@ -313,6 +285,18 @@ class Compare {
     return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) * size / std::max(width_, height_))));
   }
 
+  /// --zoom in sheet pixels a pixel, or --cell.
+  int cell_width() const {
+    if (options_.zoom == 0) return options_.cell;
+    const int width = crop_->x1 - crop_->x0, height = crop_->y1 - crop_->y0;
+    const int cell = options_.zoom * std::max(width, (height + 1) / 2), most = 2048;
+    if (cell > most || static_cast<int>(options_.methods.size()) > compare::most_columns(cell))
+      throw UsageError("--zoom " + std::to_string(options_.zoom) + ": makes columns of " + std::to_string(cell) +
+                       " pixels, and the sheet takes " + std::to_string(options_.methods.size()) + " of at most " +
+                       std::to_string(most) + "; a smaller --crop or fewer --methods help");
+    return cell;
+  }
+
   compare::Sheet sheet_frame(const Scene& scene) const {
     const DrawInput& input = scene.input;
     compare::Sheet sheet;
@@ -324,10 +308,15 @@ class Compare {
                             "picture)") +
                      "; differences of " + compared_values(input);
     sheet.columns = options_.methods;
-    sheet.rows = {
-        {"picture", {}}, {"difference from " + options_.reference, {}}, {"difference from exact mean value", {}}};
-    sheet.heat_most = heat_most;
-    sheet.heat_octaves = heat_octaves;
+    if (crop_->x1 - crop_->x0 < width_ || crop_->y1 - crop_->y0 < height_)
+      sheet.subtitle += "; shown from (" + std::to_string(crop_->x0) + ", " + std::to_string(crop_->y0) + ") to (" +
+                        std::to_string(crop_->x1) + ", " + std::to_string(crop_->y1) + ")";
+    sheet.rows = {{"picture", {}},
+                  {"change of slope: a crease is a line", {}},
+                  {"difference from " + options_.reference, {}},
+                  {"difference from exact mean value", {}}};
+    if (options_.wireframe) sheet.rows.push_back({"mesh", {}});
+    sheet.scales = {differences, bends};
     sheet.keys = {{{0, 0, 0}, "equal"},
                   {missing_colour, "missing"},
                   {extra_colour, "extra"},
@@ -347,13 +336,19 @@ class Compare {
     const compare::AttributeImage image = attribute_image(frame, scene.input);
     const compare::FrameError against_reference = compare::compare_frames(image, reference);
     const compare::FrameError against_truth = compare::compare_frames(image, truth);
-    compare::SheetCell cell{frame_picture(picture), std::to_string(against_truth.method_covered) + " pixels"};
-    if (options_.wireframe) draw_wireframe(method, scene, cell.picture);
-    sheet.rows[0].cells.emplace_back(std::move(cell));
-    sheet.rows[1].cells.emplace_back(
-        compare::SheetCell{difference_picture(image, reference, against_reference), caption_of(against_reference)});
-    sheet.rows[2].cells.emplace_back(
-        compare::SheetCell{difference_picture(image, truth, against_truth), caption_of(against_truth)});
+    const auto add = [&](std::size_t at, const golden::Image8& whole, const std::string& caption) {
+      sheet.rows[at].cells.emplace_back(compare::SheetCell{crop_->of(whole), caption});
+    };
+    add(0, frame_picture(picture), std::to_string(against_truth.method_covered) + " pixels");
+    add(1, bend_picture(image), "");
+    add(2, difference_picture(image, reference, against_reference), caption_of(against_reference));
+    add(3, difference_picture(image, truth, against_truth), caption_of(against_truth));
+    if (options_.wireframe) {
+      const golden::Image8& shown = sheet.rows[0].cells.back()->picture;
+      const auto lines = method_lines(method, scene.input, settings.state, *crop_,
+                                      compare::sheet_scale(shown.width, shown.height, cell_));
+      sheet.rows[4].cells.emplace_back(compare::SheetCell{compare::draw_mesh(shown, lines, cell_), ""});
+    }
 
     const methods::Census census =
         methods::make_method(method)->census(method_quads(scene.input, method), method_view(settings.state));
@@ -507,7 +502,8 @@ class Compare {
   const CompareOptions& options_;
   const std::vector<std::string>& arguments_;
   std::optional<StagedDirectory> stage_;
-  int width_ = 0, height_ = 0;
+  std::optional<compare::Crop> crop_;
+  int width_ = 0, height_ = 0, cell_ = 0;
 };
 
 std::string method_list() {
@@ -531,6 +527,7 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
                "the largest change of an attribute's slope across a quad's diagonal (tb/studies/compare/README.md).",
            "0 done; 2 usage or input error; 3 missing tool",
            {"compare --scene fig10_convex --out fig10", "compare --scene phong_mesh --methods split02,mvc --out fig11",
+            "compare --scene fig10_concave --crop 180,180,280,280 --zoom 4 --wireframe --out crease",
             "compare --mesh spot.obj --shade uv --plot --out spot"});
   const auto options = std::make_shared<CompareOptions>();
   options->input.add_to(*command);
@@ -554,12 +551,25 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
   options->input.add_picture_options(*command, options->shade, options->texture);
   writes_folder(command->add_option("--out", options->out, "Directory of the results; made if missing"))
       ->group(output_group);
-  command->add_option("--cell", options->cell, "Width of a picture on the sheet in pixels")
-      ->check(CLI::Range(32, 2048))
-      ->capture_default_str()
+  command
+      ->add_option(
+          "--crop", options->crop,
+          "Pixels that the sheet shows, without column X1 and row Y1\n(default: what is drawn, where that is small)")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X0,Y0,X1,Y1")
+      ->group(output_group);
+  CLI::Option* cell = command->add_option("--cell", options->cell, "Width of a picture on the sheet in pixels")
+                          ->check(CLI::Range(32, 2048))
+                          ->capture_default_str()
+                          ->type_name("N")
+                          ->group(output_group);
+  command->add_option("--zoom", options->zoom, "Show a pixel as N by N, instead of --cell")
+      ->check(CLI::Range(1, 64))
+      ->excludes(cell)
       ->type_name("N")
       ->group(output_group);
-  command->add_flag("--wireframe", options->wireframe, "Draw each method's triangles over its picture")
+  command->add_flag("--wireframe", options->wireframe, "Add a row with each method's mesh, beside its picture")
       ->group(output_group);
   command->add_flag("--plot", options->plot, "Plot error against time and against triangles")->group(output_group);
   command->callback([options, &invocation] {

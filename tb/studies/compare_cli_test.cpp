@@ -1,4 +1,5 @@
 // quadrille compare and render --method, run as a user does.
+#include "golden/io/png.hpp"
 #include "tb/commands/cli_fixture.hpp"
 
 #include <nlohmann/json.hpp>
@@ -157,6 +158,43 @@ TEST_F(CompareCli, SameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(a, b);
 }
 
+/// The sheet holds the crop's pixels as blocks of --zoom, with the colours that `render` gives.
+TEST_F(CompareCli, CropAndZoom) {
+  const std::string scene = "--scene fig10_concave --size 64x64 ";
+  table(scene + "--methods split02,mvc --crop 20,24,44,40 --zoom 5");
+  ASSERT_EQ(run("render --quiet --method split02 " + scene + "--png whole.png").status, 0);
+  const quadrille::golden::Image8 whole = quadrille::golden::load_png(file("whole.png")),
+                                  sheet = quadrille::golden::load_png(file("d/sheet.png"));
+  const auto at = [](const quadrille::golden::Image8& image, int x, int y) {
+    const auto first = image.rgba.begin() + (static_cast<std::ptrdiff_t>(y) * image.width + x) * 4;
+    return std::vector<std::uint8_t>(first, first + 3);
+  };
+  int found = 0;
+  for (int oy = 0; oy + 16 * 5 <= sheet.height; ++oy)
+    for (int ox = 0; ox + 24 * 5 <= sheet.width; ++ox) {
+      bool same = true;
+      for (int y = 0; y < 16 * 5 && same; ++y)
+        for (int x = 0; x < 24 * 5 && same; ++x) same = at(sheet, ox + x, oy + y) == at(whole, 20 + x / 5, 24 + y / 5);
+      found += same;
+    }
+  EXPECT_EQ(found, 1);
+}
+
+/// A wireframe has a row of its own: all rows above are those of a sheet without.
+TEST_F(CompareCli, WireframesLeaveThePictures) {
+  const std::string options = "--scene fig10_convex --size 64x64 --methods split02,refine:8 --crease-sizes 64 ";
+  table(options, "plain");
+  table(options + "--wireframe", "mesh");
+  const quadrille::golden::Image8 plain = quadrille::golden::load_png(file("plain/sheet.png")),
+                                  mesh = quadrille::golden::load_png(file("mesh/sheet.png"));
+  ASSERT_EQ(plain.width, mesh.width);
+  EXPECT_GE(mesh.height, plain.height + 256);
+  const auto differs = std::ranges::mismatch(plain.rgba, mesh.rgba).in1 - plain.rgba.begin();
+  constexpr int legend = 120, rows = 4 * 256;
+  EXPECT_GT(differs / 4 / plain.width, rows);
+  EXPECT_GT(differs / 4 / plain.width, plain.height - legend);
+}
+
 TEST_F(CompareCli, OddShapesGiveASheet) {
   for (const char* size : {"1x512", "512x1", "3x2"})
     table(std::string("--scene fig1_flat --methods mvc,split02 --size ") + size, size);
@@ -251,6 +289,12 @@ TEST_F(CompareCli, BadInput) {
   refuses(2, "compare --scene fig1_flat --out d --methods mvc,mvc", {"mvc", "twice"});
   refuses(2, "compare --scene fig1_flat --out d --methods refine:20,refine", {"refine", "twice"});
   refuses(2, "compare --scene fig1_flat --out d --cell 2048 --methods " + many, {"16 columns", "--cell 2048"});
+  refuses(2, "compare --scene fig1_flat --out d --crop 0,0,600,10", {"--crop", "X1 <= 512"});
+  refuses(2, "compare --scene fig1_flat --out d --crop 9,0,9,10", {"--crop", "X0 < X1"});
+  refuses(2, "compare --scene fig1_flat --out d --crop 9,0,9", {"--crop"});
+  refuses(2, "compare --scene fig1_flat --out d --zoom 4 --cell 100", {"--zoom", "--cell"});
+  refuses(2, "compare --scene fig1_flat --size 64x64 --crop 0,0,64,64 --out d --zoom 64",
+          {"--zoom 64", "4096", "--crop"});
   refuses(2, "compare --scene fig1_flat --out d --methods refine:0", {"refine:0", "1 to 1000"});
   refuses(2, "compare --scene fig1_flat --out d --methods mvc:3", {"mvc has no knob"});
   refuses(2, "compare --scene fig1_flat --out d --reference nothing", {"--reference", "nothing"});

@@ -1,7 +1,7 @@
 """A quad rasterizer with mean value coordinates: the machine's bit-accurate models and exact references, as NumPy arrays.
 
     import quadrille
-    quads = quadrille.load_obj("mesh.obj", attributes="uv")   # an automatic camera
+    quads = quadrille.load_mesh("mesh.obj", attributes="uv")   # an automatic camera
     fragments = quadrille.draw(quads)                         # the bits of the RTL
     fragments["u"], fragments["v"], fragments["u_code"]
 
@@ -29,7 +29,7 @@ from ._inputs import (
     as_quads,
     corner,
     corners,
-    load_obj,
+    load_mesh,
     load_quads,
     methods,
     pick,
@@ -67,7 +67,7 @@ __all__ = [
     "explanation_stages",
     "fragment_names",
     "fragments_of_words",
-    "load_obj",
+    "load_mesh",
     "load_quads",
     "method",
     "methods",

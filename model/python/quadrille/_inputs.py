@@ -149,29 +149,34 @@ def project(
     return _core.project(mesh, camera, *size, attributes, strict)
 
 
-def load_obj(
+def load_mesh(
     path: StrPath,
     size: tuple[int, int] = (512, 512),
     *,
+    merge_pairs: bool = False,
     camera: Camera | StrPath | None = None,
     attributes: str = "uv",
     up: Direction = (0, 1, 0),
     view_from: Direction | None = None,
     strict: bool = False,
 ) -> Quads:
-    """`project()` of an OBJ file; camera: a `Camera` or the path of a JSON file. Raises InputError with file and line."""
+    """`project()` of an OBJ, PLY, OFF or glTF file. Raises InputError with the file.
+
+    camera: a `Camera` or the path of a JSON file. merge_pairs: joins neighbouring triangles to quads, which glTF does
+    not hold; `notes` of the result has the counts.
+    """
     if camera is not None and not isinstance(camera, Camera):
         camera = Camera.load(camera)
     return project(
-        Mesh.load(path), size, camera=camera, attributes=attributes, up=up, view_from=view_from, strict=strict
+        Mesh.load(path, merge_pairs), size, camera=camera, attributes=attributes, up=up, view_from=view_from, strict=strict
     )
 
 
 def load_quads(path: StrPath) -> Quads:
-    """Quads of a .quads file; attributes a0, a1, … Raises InputError with file and line."""
+    """Quads of a .quads file; attributes as it names them, or a0, a1, … Raises InputError with file and line."""
     return _core.load_quads(path)
 
 
 def save_quads(path: StrPath, quads: Quads) -> None:
-    """Writes a .quads file, from which `load_quads()` gives the same doubles."""
+    """Writes a .quads file, from which `load_quads()` gives the same doubles and names."""
     _core.save_quads(path, quads)

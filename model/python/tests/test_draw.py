@@ -191,7 +191,7 @@ def test_forms_of_quads():
         (lambda: quadrille.method("splt02", SQUARE), ValueError, "split02"),
         (lambda: quadrille.method("adaptive", SQUARE), quadrille.UsageError, "needs corners in object space"),
         (lambda: quadrille.Mesh.parse("v 0 0 0\nf 1 2 3", "my.obj"), quadrille.InputError, "my.obj:2: "),
-        (lambda: quadrille.load_obj("missing.obj"), quadrille.InputError, "missing.obj"),
+        (lambda: quadrille.load_mesh("missing.obj"), quadrille.InputError, "missing.obj"),
         (
             lambda: quadrille.project(
                 quadrille.Mesh.parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", "t"), camera=quadrille.Camera(eye=(0, 0, 0))

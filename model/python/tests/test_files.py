@@ -1,6 +1,8 @@
 """Own files: an OBJ to an array of u, v, cameras, .quads."""
 
+import base64
 import json
+import struct
 
 import numpy as np
 import pytest
@@ -25,7 +27,7 @@ f 2/2 5/1 3/3
 def test_own_mesh_in_five_lines(tmp_path):
     path = tmp_path / "mesh.obj"
     path.write_text(MESH)
-    quads = quadrille.load_obj(path)
+    quads = quadrille.load_mesh(path)
     fragments = quadrille.draw(quads)
     uv = np.stack([fragments["u"], fragments["v"]], axis=1)
     assert uv.shape == (len(fragments), 2) and len(uv) > 20000 and uv.min() >= 0 and uv.max() <= 1
@@ -35,6 +37,70 @@ def test_own_mesh_in_five_lines(tmp_path):
     assert len(true) == len(fragments)
     in_order = np.lexsort((fragments["x"], fragments["y"], fragments["quad"]))
     assert np.abs(uv[in_order, 0] - true["u"]).max() <= quadrille.Config().bounds()["attribute"]
+
+
+PLY = """ply
+format ascii 1.0
+element vertex 5
+property float x
+property float y
+property float z
+property float u
+property float v
+element face 2
+property list uchar int vertex_indices
+end_header
+-1 -1 0 0 0
+1 -1 0 1 0
+1 1 -1 1 1
+-1 1 -1 0 1
+3 0 0 0 0
+4 0 1 2 3
+3 1 4 2
+"""
+
+
+def gltf():
+    """The same as three triangles, where v counts from the top."""
+    points = [-1, -1, 0, 1, -1, 0, 1, 1, -1, -1, 1, -1, 3, 0, 0]
+    data = struct.pack("<15f10f9H", *points, *[0, 1, 1, 1, 1, 0, 0, 0, 0, 1], *[0, 1, 2, 0, 2, 3, 1, 4, 2])
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    return {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]}],
+        "buffers": [{"byteLength": len(data), "uri": uri}],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": at, "byteLength": size} for at, size in [(0, 60), (60, 40), (100, 18)]
+        ],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 5, "type": "VEC3", "min": [-1, -1, -1], "max": [3, 1, 0]},
+            {"bufferView": 1, "componentType": 5126, "count": 5, "type": "VEC2"},
+            {"bufferView": 2, "componentType": 5123, "count": 9, "type": "SCALAR"},
+        ],
+    }
+
+
+def test_other_formats(tmp_path):
+    """A PLY or glTF in five lines: the fragments are those of the OBJ file, whose numbers are few bits long."""
+    (tmp_path / "m.obj").write_text(MESH)
+    (tmp_path / "m.ply").write_text(PLY)
+    (tmp_path / "m.gltf").write_text(json.dumps(gltf()))
+    expected = quadrille.draw(quadrille.load_mesh(tmp_path / "m.obj"))
+    for name, pairs in [("m.ply", False), ("m.gltf", True)]:
+        quads = quadrille.load_mesh(tmp_path / name, merge_pairs=pairs)
+        fragments = quadrille.draw(quads)
+        uv = np.stack([fragments["u"], fragments["v"]], axis=1)
+        assert len(quads) == 2 and len(uv) == len(expected) > 20000
+        assert np.array_equal(fragments, expected)
+    assert quads.notes == ["--merge-pairs: 3 triangles became 1 quads, 1 stayed triangles"]
+    triangles = quadrille.load_mesh(tmp_path / "m.gltf")
+    assert len(triangles) == 3 and "merge_pairs=True" in triangles.notes[0]
+    (tmp_path / "bad.ply").write_text(PLY.replace("4 0 1 2 3", "4 0 1 2 9"))
+    with pytest.raises(quadrille.InputError, match="bad.ply: assimp says: "):
+        quadrille.load_mesh(tmp_path / "bad.ply")
 
 
 def test_cameras(tmp_path):
@@ -47,7 +113,7 @@ def test_cameras(tmp_path):
     assert loaded.text() == made.text() and loaded.eye == [0, 0, 4]
     a = quadrille.project(mesh, (64, 48), camera=loaded)
     (tmp_path / "mesh.obj").write_text(MESH)
-    b = quadrille.load_obj(tmp_path / "mesh.obj", (64, 48), camera=path)
+    b = quadrille.load_mesh(tmp_path / "mesh.obj", (64, 48), camera=path)
     assert np.array_equal(a.vertices, b.vertices)
     # By hand: perspective of 40 degrees, aspect 4/3, clip space to window.
     f = 1 / np.tan(np.radians(20))
@@ -72,6 +138,10 @@ def test_quads_files(tmp_path):
     quadrille.save_quads(tmp_path / "a.quads", quads)
     again = quadrille.load_quads(tmp_path / "a.quads")
     assert np.array_equal(again.vertices, quads.vertices) and np.array_equal(again.attributes, quads.attributes)
+    assert again.names == ["a0", "a1", "a2"]
+    named = quadrille.scene("bowtie")
+    quadrille.save_quads(tmp_path / "named.quads", named)
+    assert quadrille.load_quads(tmp_path / "named.quads").names == named.names == ["u", "v"]
     (tmp_path / "b.quads").write_text("1 2 3\n")
     with pytest.raises(quadrille.InputError, match="b.quads:1: "):
         quadrille.load_quads(tmp_path / "b.quads")

@@ -8,7 +8,7 @@ import quadrille
 
 GOOD = """import quadrille
 
-quads = quadrille.load_obj("mesh.obj", (64, 64))
+quads = quadrille.load_mesh("mesh.obj", (64, 64))
 fragments = quadrille.draw(quads, config=quadrille.Config(significand_bits=12), cull="back", threads=1)
 u = fragments["u"]
 bits: int = quadrille.Config().significand_bits

@@ -11,6 +11,7 @@ namespace quadrille::compare {
 struct Crop {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
+  Crop(int left, int top, int right, int bottom) : x0(left), y0(top), x1(right), y1(bottom) {}
   Crop(const AttributeImage& a, const AttributeImage& b);
   /// The part of a picture of the frames' size.
   golden::Image8 of(const golden::Image8& picture) const;

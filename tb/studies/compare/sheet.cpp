@@ -118,12 +118,28 @@ std::string power_of_two(double value) {
   return "2^" + std::to_string(static_cast<int>(std::lround(std::log2(value))));
 }
 
-/// Of a picture within its cell.
 double scale_of(const Image8& picture, double cell) {
-  return std::min(cell / picture.width, 2 * cell / picture.height);
+  return sheet_scale(picture.width, picture.height, static_cast<int>(cell));
+}
+
+/// Cairo's picture, enlarged without smoothing, at the context's origin.
+void paint(cairo_t* context, const Image8& image, double scale) {
+  const Surface picture = to_surface(image);
+  cairo_save(context);
+  cairo_scale(context, scale, scale);
+  cairo_set_source_surface(context, picture.get(), 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(context), scale < 1 ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
+  cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);
+  cairo_rectangle(context, 0, 0, image.width, image.height);
+  cairo_fill(context);
+  cairo_restore(context);
 }
 
 }  // namespace
+
+double sheet_scale(int width, int height, int cell_width) {
+  return std::min(static_cast<double>(cell_width) / width, 2.0 * cell_width / height);
+}
 
 int most_columns(int cell_width) {
   constexpr double most_side = 32767;
@@ -139,11 +155,11 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
       if (entry) height = std::max(height, entry->picture.height * scale_of(entry->picture, cell));
     heights.push_back(std::round(height));
   }
-  const bool legend = sheet.heat_most > 0 || !sheet.keys.empty();
+  const bool legend = !sheet.scales.empty() || !sheet.keys.empty();
   const double left = margin + label_width, top = margin + title_size + line_height + gap + line_height;
   double width = left + static_cast<double>(sheet.columns.size()) * (cell + gap) - gap + margin;
   width = std::max(width, 760.0);
-  double height = top + (legend ? 2 * line_height + gap : 0) + margin;
+  double height = top + (legend ? static_cast<double>(2 + sheet.scales.size()) * line_height + gap : 0) + margin;
   for (const double h : heights) height += h + caption_lines * line_height + gap;
 
   const Surface surface = make_surface(static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(height)));
@@ -181,16 +197,9 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
       const std::optional<SheetCell>& entry = sheet.rows[r].cells[column];
       if (!entry) continue;
       const double x = left + static_cast<double>(column) * (cell + gap);
-      const Surface picture = to_surface(entry->picture);
-      const double scale = scale_of(entry->picture, cell);
       cairo_save(context);
       cairo_translate(context, x, y);
-      cairo_scale(context, scale, scale);
-      cairo_set_source_surface(context, picture.get(), 0, 0);
-      cairo_pattern_set_filter(cairo_get_source(context), scale < 1 ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
-      cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);
-      cairo_rectangle(context, 0, 0, entry->picture.width, entry->picture.height);
-      cairo_fill(context);
+      paint(context, entry->picture, scale_of(entry->picture, cell));
       cairo_restore(context);
       cairo_set_source_rgb(context, ink, ink, ink);
       font(context, text_size - 1.5, false);
@@ -202,18 +211,17 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
   if (legend) {
     font(context, text_size, false);
     double x = left;
-    if (sheet.heat_most > 0) {
-      const std::string low = "≤ " + power_of_two(std::ldexp(sheet.heat_most, -sheet.heat_octaves)),
-                        high = "≥ " + power_of_two(sheet.heat_most);
-      write_line(context, x, y + text_size, "difference", width);
-      x += width_of(context, "difference ") + 4;
+    for (const SheetScale& scale : sheet.scales) {
+      const double least = std::ldexp(scale.most, -scale.octaves);
+      const std::string low = "≤ " + power_of_two(least), high = "≥ " + power_of_two(scale.most);
+      write_line(context, x, y + text_size, scale.text, width);
+      x += width_of(context, scale.text + " ") + 4;
       write_line(context, x, y + text_size, low, width);
       x += width_of(context, low) + 6;
       constexpr int steps = 96;
       for (int i = 0; i < steps; ++i) {
-        const auto colour = golden::heat_colour(
-            std::ldexp(sheet.heat_most, -sheet.heat_octaves) * std::exp2(sheet.heat_octaves * (i + 0.5) / steps),
-            sheet.heat_most, sheet.heat_octaves);
+        const auto colour =
+            golden::heat_colour(least * std::exp2(scale.octaves * (i + 0.5) / steps), scale.most, scale.octaves);
         cairo_set_source_rgb(context, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
         cairo_rectangle(context, x + i, y + 2, 1.5, text_size);
         cairo_fill(context);
@@ -221,7 +229,7 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
       x += steps + 6;
       cairo_set_source_rgb(context, ink, ink, ink);
       write_line(context, x, y + text_size, high, width);
-      x += width_of(context, high) + 24;
+      x = left, y += line_height;
     }
     for (const SheetKey& key : sheet.keys) {
       const double needed = text_size + 6 + width_of(context, key.text);
@@ -237,28 +245,29 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
   return to_image(surface.get());
 }
 
-double wireframe_opacity(double edge, double width) {
-  // Lines fill 2·width/edge of the picture, and neighbours draw the edge between them twice.
-  constexpr double share = 0.05;
-  return std::clamp(share * edge / width, 0.0, 1.0);
-}
-
-void draw_lines(Image8& picture, const std::vector<Polyline>& lines, std::array<std::uint8_t, 3> colour, double width) {
-  const Surface surface = to_surface(picture);
+Image8 draw_mesh(const Image8& picture, const std::vector<Polyline>& lines, int cell_width) {
+  // Neighbours draw the edge between them twice: lines fill 2·width/edge of the picture.
+  constexpr double width = 1, share = 0.05, pale = 0.7;
+  const double scale = scale_of(picture, cell_width);
+  const Surface surface = make_surface(std::max(1, static_cast<int>(std::lround(picture.width * scale))),
+                                       std::max(1, static_cast<int>(std::lround(picture.height * scale))));
   const Context owner(cairo_create(surface.get()));
   cairo_t* context = owner.get();
+  paint(context, picture, scale);
+  cairo_set_source_rgba(context, 1, 1, 1, pale);
+  cairo_paint(context);
   cairo_set_line_width(context, width);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   for (const Polyline& line : lines) {
-    cairo_set_source_rgba(context, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, line.opacity);
+    cairo_set_source_rgba(context, ink, ink, ink, std::clamp(share * line.edge * scale / width, 0.0, 1.0));
     bool first = true;
     for (const auto& [x, y] : line.points) {
-      first ? cairo_move_to(context, x, y) : cairo_line_to(context, x, y);
+      first ? cairo_move_to(context, x * scale, y * scale) : cairo_line_to(context, x * scale, y * scale);
       first = false;
     }
     cairo_stroke(context);
   }
-  picture = to_image(surface.get());
+  return to_image(surface.get());
 }
 
 }  // namespace quadrille::compare

@@ -27,13 +27,18 @@ struct SheetKey {
   std::string text;
 };
 
+/// Colours of golden::heat_colour from most·2^-octaves to `most`.
+struct SheetScale {
+  std::string text;  ///< what is coloured, and its unit
+  double most = 1;
+  int octaves = 0;
+};
+
 struct Sheet {
   std::string title, subtitle;
   std::vector<std::string> columns;
   std::vector<SheetRow> rows;
-  /// Differences are coloured logarithmically from heat_most·2^-heat_octaves to heat_most; 0: no scale in the legend.
-  double heat_most = 0;
-  int heat_octaves = 0;
+  std::vector<SheetScale> scales;
   std::vector<SheetKey> keys;
 };
 
@@ -45,17 +50,17 @@ int most_columns(int cell_width);
 /// std::runtime_error for more than most_columns().
 golden::Image8 draw_sheet(const Sheet& sheet, int cell_width);
 
+/// Sheet pixels a pixel of a picture of this size.
+double sheet_scale(int width, int height, int cell_width);
+
 /// Points in pixels of a picture.
 struct Polyline {
   std::vector<std::array<double, 2>> points;
-  double opacity = 1;
+  double edge = 0;  ///< mean length of an edge, in the same pixels
 };
-/// Of a line of this width round a cell whose edges have this mean length, both in pixels: fine meshes fade, so that
-/// their lines together cover at most about a sixth of the picture however small the cells are.
-double wireframe_opacity(double edge, double width);
 
-/// Lines over a picture: for the mesh that a method emits.
-void draw_lines(golden::Image8& picture, const std::vector<Polyline>& lines, std::array<std::uint8_t, 3> colour,
-                double width);
+/// A picture as large as draw_sheet() shows it, pale, with lines of one sheet pixel over it. Lines of fine meshes fade,
+/// so that together they cover about a tenth however small the cells are.
+golden::Image8 draw_mesh(const golden::Image8& picture, const std::vector<Polyline>& lines, int cell_width);
 
 }  // namespace quadrille::compare

@@ -1,9 +1,12 @@
 // The layout of a contact sheet, by looking for the colours of the pictures in it: text depends on the fonts installed.
 #include "tb/studies/compare/sheet.hpp"
 
+#include "golden/io/image_diff.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace quadrille::compare {
@@ -101,15 +104,19 @@ TEST(Sheet, RefusesWhatTheDrawingLibraryCannotHold) {
   EXPECT_LE(draw_sheet(sheet, 2048).width, 32767);
 }
 
-TEST(DrawLines, DrawsOverThePicture) {
-  Image8 image = filled(40, 20, blue);
-  draw_lines(image, {Polyline{{{5, 10}, {35, 10}}}}, red, 4);
-  const Found r = find(image, red);
-  EXPECT_EQ(r.x0, 5);
-  EXPECT_EQ(r.x1, 34);
-  EXPECT_EQ(r.y0, 8);
-  EXPECT_EQ(r.y1, 11);
-  EXPECT_EQ(find(image, blue).count, 40 * 20 - r.count);
+TEST(Sheet, EveryScaleHasItsBar) {
+  Sheet sheet = two_by_two();
+  const int none = draw_sheet(sheet, 100).height;
+  sheet.scales = {{"difference", 1, 14}};
+  const Image8 one = draw_sheet(sheet, 100);
+  sheet.scales.push_back({"slope", 4, 12});
+  const Image8 two = draw_sheet(sheet, 100);
+  EXPECT_GT(one.height, none);
+  EXPECT_GT(two.height, one.height);
+  // The largest colour, which text does not have, ends each bar.
+  const std::array<std::uint8_t, 3> light = golden::heat_colour(std::exp2(-7.0 / 96), 1, 14);
+  EXPECT_EQ(find(draw_sheet(two_by_two(), 100), light).count, 0);
+  EXPECT_GT(find(one, light).count, 10);
 }
 
 }  // namespace
