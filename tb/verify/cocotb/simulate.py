@@ -27,6 +27,10 @@ class Result:
     failed: int
     log: str
 
+    def lines(self) -> str:
+        """What was compared."""
+        return "\n".join(re.findall(r"\S+: \d+ fragments, .*", self.log))
+
     def counted(self, what: str) -> int:
         """Sum of the numbers before a word, such as "1234 fragments"."""
         return sum(int(number) for number in re.findall(rf"(\d+) {what}\b", self.log))

@@ -170,7 +170,7 @@ def replay(build, suite, record=None):
     summary = re.search(rf"^{re.escape(suite.name)}: (\d+) vectors, (\d+) mismatches$", result.stdout, re.MULTILINE)
     times = f"build {build.seconds:.1f} s, run {seconds:.1f} s"
     if record and summary and summary[1] == str(suite.vectors()) and result.returncode == 0:
-        return True, [f"{label}: {summary[1]} vectors recorded, {summary[2]} differ from {suite.directory} ({times})"]
+        return True, [f"{label}: {summary[1]} vectors recorded, {summary[2]} differ from the set ({times})"]
     if summary and summary.groups() == (str(suite.vectors()), "0") and result.returncode == 0:
         clocks = re.findall(r": (\d+ clocks(?: with stalls)?)$", result.stdout, re.MULTILINE)
         return True, [f"{label}: {summary[1]} vectors, 0 mismatches ({', '.join(clocks + [times])})"]
