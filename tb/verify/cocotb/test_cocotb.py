@@ -33,7 +33,7 @@ def test_ports(simulator, tmp_path):
     result = simulate(simulator, "quadrille", "ports_bench", tmp_path, keys=KEYS[simulator], seed=SEED)
     print(result.lines())
     assert (result.tests, result.failed) == (5, 0)
-    assert result.counted("fragments") > 1000 and result.counted("mismatches") == 0 and result.counted("flushes") > 0
+    assert result.counted("fragments") > 500 and result.counted("mismatches") == 0 and result.counted("flushes") > 0
 
 
 @pytest.mark.parametrize("simulator", ["verilator", "icarus"])
@@ -42,7 +42,7 @@ def test_stream(simulator, tmp_path):
     result = simulate(simulator, "quadrille_axi4_stream", "stream_bench", tmp_path, **wrapper)
     print(result.lines())
     assert (result.tests, result.failed) == (2, 0)
-    assert result.counted("fragments") > 1000 and result.counted("mismatches") == 0
+    assert result.counted("fragments") > 900 and result.counted("mismatches") == 0
 
 
 def test_ports_see_a_fault_icarus(tmp_path):
