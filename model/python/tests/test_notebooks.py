@@ -23,9 +23,12 @@ def test_notebook(path, tmp_path, monkeypatch):
     notebook = nbformat.read(path, as_version=4)
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert all(not cell.outputs and cell.execution_count is None for cell in cells), "outputs are not committed"
-    # Seconds of a cell: most take three, a simulation more. A reply whose wake-up is lost (pyzmq under asyncio) is found
+    # Seconds of a cell, which takes three, or simulates. A reply whose wake-up is lost (pyzmq under asyncio) is found
     # when they end.
-    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": tmp_path}}).execute()
+    nbclient.NotebookClient(
+        notebook, timeout_func=lambda cell: 300 if "simulator.test" in cell.source else 60,
+        resources={"metadata": {"path": tmp_path}},
+    ).execute()
     outputs = [output for cell in cells for output in cell.outputs]
     assert not [output for output in outputs if output.output_type == "error"]
     if path.stem == "check_your_own_rtl":  # the RTL under cocotb, against the model

@@ -9,6 +9,7 @@ from cocotb.triggers import FallingEdge, with_timeout
 from cocotbext.axi import AxiStreamBus, AxiStreamFrame, AxiStreamSink, AxiStreamSource
 from draws import CONFIG, FRAGMENTS, SEED, SIZE, rng_of, some_quads
 
+CLOCKS = 4000  # of a draw, at most
 # Stress family, draw state, beats of a quad that does not come to its end.
 DRAWS = [
     ("general", {}, 0),
@@ -65,7 +66,7 @@ async def same_fragments(dut, pause):
         vertices.send_nowait(AxiStreamFrame(words + words[:over]))
     lane_bytes = len(dut.m_axis_fragment_tkeep) // CONFIG.pixels_per_clock
     for number, (quads, state, _) in enumerate(draws):
-        frame = await with_timeout(sink.recv(compact=False), 1, "ms")
+        frame = await with_timeout(sink.recv(compact=False), CLOCKS * 2, "ns")
         machine = quadrille.Machine(CONFIG, names=["a0"], size=SIZE, **state)
         machine.push(quads)
         machine.run()
