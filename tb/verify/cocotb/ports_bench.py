@@ -68,7 +68,7 @@ async def same_bits_in_every_clock(dut, draw):
                 mismatches += 1
                 shown = f"{actual} instead of {value:b}"
                 if port == "fragment_o" and actual.is_resolvable:
-                    mine = [f"{int(actual) >> bits * g & (1 << bits) - 1:x}" for g in range(lanes) if mask >> g & 1]
+                    mine = [int(actual) >> bits * g & (1 << bits) - 1 for g in range(lanes) if mask >> g & 1]
                     shown = f"{fields(mine)} instead of {fields(machine.words)}"
                 message = message or f"clock {machine.clocks}, {port}: {shown}"
         taken = offered and machine.vertex_ready
