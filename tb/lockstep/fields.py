@@ -37,8 +37,15 @@ def program():
     return found
 
 
+def together(fields):
+    """As ports have them: attr_neg, attr_exp and attr_sig of an element side by side."""
+    number = re.compile(r"(\w+)_(?:neg|exp|sig)")
+    groups = itertools.groupby(fields, key=lambda field: (m := number.fullmatch(field[0])) and m[1] or field[0])
+    return [field for _, group in groups for field in sorted(group, key=lambda field: -field[1])]
+
+
 def records(settings):
-    """{record: [(field, elements, width, signed, fraction bits)]}, the most significant first."""
+    """{record: [(field, index, width, signed, fraction bits)]} of each element, the most significant first."""
     found = {}
     for which in ("ports", "probes"):
         command = [program(), "config", "--boundaries", which, *itertools.chain(*(("--set", s) for s in settings))]
@@ -50,21 +57,20 @@ def records(settings):
                 found[head[1]] = fields = []
             elif field := re.match(r"(\w+) +(?:(\d+) × )?(\d+)(, signed)?(?: +(-?\d+)(?= |$))?", line):
                 name, count, width, signed, fraction = field.groups()
-                fields.append((name, int(count or 0), int(width), bool(signed), int(fraction or 0)))
+                fields += [(name, i, int(width), bool(signed), int(fraction or 0)) for i in reversed(range(int(count or 1)))]
+        if which == "ports":
+            found = {record: together(fields) for record, fields in found.items()}
     return found
 
 
 def unpacked(fields, word):
     """{field: [value of each element, from 0]} of a word; a number in several fields also by its name."""
-    values, position = {}, sum(max(count, 1) * width for _, count, width, _, _ in fields)
-    for name, count, width, signed, fraction in fields:
-        elements = []
-        for _ in range(max(count, 1)):  # the last element is the most significant one
-            position -= width
-            value = word >> position & (1 << width) - 1
-            value -= (1 << width) if signed and value >> width - 1 else 0
-            elements.insert(0, value * 2.0**-fraction if fraction else value)
-        values[name] = elements
+    values, position = {}, sum(width for _, _, width, _, _ in fields)
+    for name, _, width, signed, fraction in fields:
+        position -= width
+        value = word >> position & (1 << width) - 1
+        value -= (1 << width) if signed and value >> width - 1 else 0
+        values.setdefault(name, []).insert(0, value * 2.0**-fraction if fraction else value)
     for prefix in [name[:-3] for name in values if re.fullmatch(r"(\w+_)?sig", name)]:
         parts = zip(values.get(prefix + "neg", itertools.repeat(0)), values[prefix + "exp"], values[prefix + "sig"])
         values[prefix[:-1] or "value"] = [(-significand if negative else significand) * 2.0**exponent for negative, exponent, significand in parts]
@@ -82,7 +88,7 @@ class Decoder:
         if record not in layouts:
             raise Failure(f"{record}: no such record; there are {', '.join(layouts)}")
         self.fields, self.names = layouts[record], names
-        self.bits = sum(max(count, 1) * width for _, count, width, _, _ in self.fields)
+        self.bits = sum(width for _, _, width, _, _ in self.fields)
         for name in names:
             if name not in unpacked(self.fields, 0):
                 raise Failure(f"{record}: no field {name}; there are {', '.join(unpacked(self.fields, 0))}")
