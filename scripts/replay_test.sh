@@ -117,6 +117,22 @@ expect 0 "^sqrt: [1-9][0-9]* vectors, 0 mismatches" "default widths without the 
 expect 0 "^sqrt: [1-9][0-9]* vectors, 0 mismatches" "other widths with it" $replay "$work/narrow" icarus
 expect 3 "no program /nowhere/quadrille, which makes the tables of sqrt" "other widths without the program" env QUADRILLE=/nowhere/quadrille $replay "$work/narrow" icarus
 
+# ---- One's own responses as a set ----
+cp -r rtl "$work/mine"
+sed -i "s/: poly;/: {poly[S-1:1], 1'b0};/" "$work/mine/quadrille_sqrt.sv"
+expect 0 "^sqrt: [0-9]+ vectors recorded, [1-9][0-9]* differ from the set" "one's own responses recorded" \
+  $replay "$set" icarus --suite sqrt --suite reciprocal --rtl "$work/mine" --record "$work/recorded"
+expect 0 "^sqrt: [1-9][0-9]* vectors, 0 mismatches" "and replayed with the same RTL" $replay "$work/recorded" icarus --suite sqrt --rtl "$work/mine"
+expect 1 "^sqrt: sig\[[0-3]\]: expected" "and not with other RTL" $replay "$work/recorded" icarus --suite sqrt
+expect 1 "^sqrt: .* differ" "sealed: the program compares it with the model" "$QUADRILLE" golden verify "$work/recorded"
+expect 2 "recorded: exists; name a new folder" "a folder that exists" $replay "$set" icarus --suite sqrt --record "$work/recorded"
+expect 2 "$machine is no suite of a unit; choose suites with --suite" "a suite of the machine recorded" $replay "$set" icarus --record "$work/other"
+expect 3 "no program /nowhere/quadrille, which seals the set" "recorded without the program" \
+  env QUADRILLE=/nowhere/quadrille $replay "$set" icarus --suite sqrt --record "$work/other"
+sed -i "s/: {poly/: zero_q ? 'x : {poly/; s/zero_q ? '0/zero_q ? 'x/" "$work/mine/quadrille_sqrt.sv"
+expect 2 "not sealed: .*response.hex" "unknown bits are not sealed" $replay "$set" icarus --suite sqrt --rtl "$work/mine" --record "$work/other"
+expect 0 "" "nothing half-written" test ! -e "$work/other"
+
 # ---- Hidden tiles: wiped behind reset, cleared between draws ----
 $sample || "$QUADRILLE" golden generate --level 1 --limit 300 --out "$work/hidden" --quiet --suite machine --set significand_bits=10 --set attribute_slots=1 \
   --set hierarchical_z_bits=10 --set hierarchical_z_tiles_log2=6

@@ -3,7 +3,7 @@
 #   scripts/test.sh --quick     a minute once built
 #   scripts/test.sh             default tier, as in CI: 20 minutes
 #   scripts/test.sh --full      everything but Python and the page, an hour
-#   scripts/test.sh --python    the Python package, 4 minutes from nothing built; needs PyPI
+#   scripts/test.sh --python    the Python package and cocotb, 8 minutes from nothing built; needs PyPI
 #   scripts/test.sh --page      the page in a browser, 6 minutes; needs PyPI and npm
 # Other arguments go to ctest, alone or after a tier: --quick -L model.
 # Exit status: 0 all passed, 1 not.

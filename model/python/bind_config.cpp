@@ -4,6 +4,7 @@
 #include "model/port/config.hpp"
 #include "model/port/config_text.hpp"
 #include "model/port/draw_state.hpp"
+#include "model/port/tables.hpp"
 #include "model/python/binding.hpp"
 #include "tb/support/choices.hpp"
 
@@ -126,6 +127,9 @@ void bind_class(nb::module_& m) {
            "corners'\nvalues differ by at most 1 (unit of the value).")
       .def("cost", cost_of, nb::sig("def cost(self) -> dict[str, float]"),
            "Estimated hardware on an ECP5: cost (LUTs with blocks at their price), luts, flip_flops, dsps, block_rams.")
+      .def(
+          "tables", [](const Config& self) { return tables_package(self); },
+          "quadrille_tables_pkg.sv of this configuration, the one generated source of its RTL.")
       .def(nb::self == nb::self, nb::sig("def __eq__(self, other: object, /) -> bool"))
       .def("__hash__", [](const Config& self) { return std::hash<std::string>()(changed_keys(self, " ")); })
       .def("__getstate__", [](const Config& self) { return changed_keys(self, " "); })

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace quadrille::tb {
 namespace {
@@ -39,19 +40,22 @@ int run_inputs(const CosimOptions& options, const Config& config, const std::vec
     total.attributes = results.front().attributes;
   }
 
-  const ModelCheck model = check_model(config);
-  const bool ok = model.ok() && std::ranges::all_of(results, [](const InputResult& r) { return r.ok(); });
-  if (std::FILE* text = options.common.text()) report.print_summary(text, total, model, ok);
+  // Of RTL that is judged by the truth alone the model says nothing.
+  std::optional<ModelCheck> model;
+  if (!options.by_truth()) model = check_model(config);
+  const bool ok = (!model || model->ok()) && std::ranges::all_of(results, [](const InputResult& r) { return r.ok(); });
+  if (std::FILE* text = options.common.text()) report.print_summary(text, total, model ? &*model : nullptr, ok);
   if (!options.common.json.empty())
-    golden::save_json(options.common.json, report.all(total, results, model, ok, arguments));
+    golden::save_json(options.common.json, report.all(total, results, model ? &*model : nullptr, ok, arguments));
   for (const InputResult& result : results) {
     complain(result);
     // A minimized failure has a command of its own.
     if (const std::string command = report.explain(result); options.no_shrink && !command.empty())
       std::fprintf(stderr, "quadrille: %s: the pixel explained: %s\n", result.name.c_str(), command.c_str());
   }
-  if (!model.ok()) std::fprintf(stderr, "quadrille: model check: %s\n", model.fault().c_str());
-  if (!ok && !options.no_shrink) run.shrink_failure(results, model);
+  const bool model_ok = !model || model->ok();
+  if (!model_ok) std::fprintf(stderr, "quadrille: model check: %s\n", model->fault().c_str());
+  if (!ok && !options.no_shrink) run.shrink_failure(results, model_ok);
   return ok ? exit_ok : exit_mismatch;
 }
 
@@ -69,7 +73,9 @@ int run_cosim(const CosimOptions& options, const std::vector<std::string>& argum
     throw UsageError("--rtl " + options.rtl + ": " + error.what());  // the user's sources
   } catch (const WatchdogError&) {
     // Both sides hang alike (the RTL alone would have differed), each time for as long as it takes to be sure of it.
-    if (!options.no_shrink) std::fputs("quadrille: not minimized: RTL and model hang alike\n", stderr);
+    if (!options.no_shrink)
+      std::fprintf(stderr, "quadrille: not minimized: %s\n",
+                   options.by_truth() ? "the RTL hangs" : "RTL and model hang alike");
     throw;
   }
 }
@@ -136,6 +142,13 @@ void add_cosim_command(CLI::App& app, Invocation& invocation) {
       ->type_name("N");
   command->add_option("--rtl", options->rtl, "Your RTL: a directory, or one file (only its ports are compared)")
       ->type_name("PATH");
+  command
+      ->add_option("--judge", options->judge,
+                   "What the RTL is held to\n"
+                   "  lockstep  every bit and clock of the model, and the truth\n"
+                   "  truth     exact coverage and the bounds of errors alone, for RTL with bits of its own")
+      ->type_name("JUDGE")
+      ->capture_default_str();
   command->add_flag("--compare-skips,!--no-compare-skips", options->compare_skips,
                     "Do not compare draws with and without each skip");
   command->add_flag("--no-snapping-error", options->no_snapping, "Do not measure the snapping error");

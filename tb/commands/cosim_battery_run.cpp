@@ -158,7 +158,7 @@ int run_battery(const CosimOptions& options, const Config& config, const std::ve
     if (!options.rtl.empty()) command += " --rtl " + quoted(options.rtl);
     std::fprintf(stderr, "quadrille: to repeat the first failing group:\n  %s\n", command.c_str());
     if (!options.no_shrink && failed->run.failed())
-      failed->run.shrink_failure({failed->result}, failed->model.value_or(ModelCheck{}));
+      failed->run.shrink_failure({failed->result}, !failed->model || failed->model->ok());
   }
   return ok ? exit_ok : exit_mismatch;
 }

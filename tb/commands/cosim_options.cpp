@@ -21,12 +21,15 @@ auto parsed_option(const char* option, const std::string& text, Parse&& parse) {
   }
 }
 
-bool holds_verilog(const std::string& directory) {
-  return std::ranges::any_of(std::filesystem::directory_iterator(directory),
-                             [](const auto& entry) { return entry.path().extension() == ".sv"; });
-}
-
 }  // namespace
+
+void check_rtl(const std::string& rtl) {
+  if (rtl.empty()) return;
+  const std::filesystem::path path(rtl);
+  if (!std::filesystem::exists(path)) throw UsageError("--rtl " + rtl + ": no such file or directory");
+  if (std::filesystem::is_directory(path) && !std::filesystem::exists(path / "quadrille.sv"))
+    throw UsageError("--rtl " + rtl + ": no quadrille.sv in this directory; copy the folder rtl/ and change its units");
+}
 
 void CosimOptions::check(const Config& config) const {
   parsed_option("--stall-clocks", stall_clocks, parse_stall_clocks);
@@ -50,6 +53,11 @@ void CosimOptions::check(const Config& config) const {
           "--battery sets inputs, configurations and draw states; use it only with --rtl, --seed, --threads, "
           "--json, --shrink and --quiet");
   }
+  if (judge != "lockstep" && judge != "truth")
+    throw UsageError("--judge " + judge + ": expected lockstep or truth");
+  if (by_truth() && (draws > 0 || !battery.empty()))
+    throw UsageError("--judge truth conflicts with --" + std::string(draws > 0 ? "draws" : "battery") +
+                     ", which compares with the model");
   if (draws > 0) {
     const std::string given = state.spelled() + (attributes > 0 ? " --attributes" : "") +
                               (draw_state.empty() ? "" : " --draw-state") + (out.empty() ? "" : " --out") +
@@ -59,9 +67,7 @@ void CosimOptions::check(const Config& config) const {
   std::vector<std::string> read = input.files();
   read.insert(read.end(), {common.config_file, texture});
   check_outputs({trace, shrink, out, png, input.save_camera, common.json}, read);
-  if (!rtl.empty() && !std::filesystem::exists(rtl)) throw UsageError("--rtl " + rtl + ": no such file or directory");
-  if (std::filesystem::is_directory(rtl) && !holds_verilog(rtl))
-    throw UsageError("--rtl " + rtl + ": no SystemVerilog file (*.sv) in this directory");
+  check_rtl(rtl);
   if (all_scenes() && (!out.empty() || !png.empty() || !trace.empty()))
     throw UsageError("--out, --png and --trace need one input, not all scenes");
 }
@@ -100,7 +106,9 @@ LockstepOptions CosimOptions::lockstep(const Config& config, const DrawState& dr
   lockstep.pattern = parsed_option("--waits", waits, parse_wait_kind);
   lockstep.limit_fragments = limit_fragments;
   lockstep.source = rtl;
-  lockstep.probes = !std::filesystem::is_regular_file(rtl);  // one file has none: ports alone are compared
+  lockstep.compare = !by_truth();
+  // One file has none: ports alone are compared.
+  lockstep.probes = lockstep.compare && !std::filesystem::is_regular_file(rtl);
   lockstep.threads = common.thread_count();
   return lockstep;
 }

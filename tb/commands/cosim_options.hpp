@@ -12,6 +12,9 @@
 
 namespace quadrille::tb {
 
+/// Throws UsageError unless the argument of --rtl is empty, a file, or a directory with the machine.
+void check_rtl(const std::string& rtl);
+
 struct CosimOptions {
   CommonOptions common;
   StateOptions state;
@@ -22,10 +25,13 @@ struct CosimOptions {
   std::uint64_t draws = 0;  ///< each input is cut into so many; 0: it is one
   std::string battery;      ///< groups of the battery, or all
   std::string waits, stall_clocks, gap_beats, draw_state, trace, shrink, out, png, texture, shade, rtl;
+  std::string judge = "lockstep";  ///< or truth
   bool no_snapping = false, no_alone = false, no_shrink = false, compare_skips = true, list_metrics = false;
 
   /// Throws UsageError for options that are wrong or do not go together.
   void check(const Config& config) const;
+  /// Without the model: the RTL need not have its bits.
+  bool by_truth() const { return judge == "truth"; }
   bool all_scenes() const { return inputs_given(input) == 0 || input.scene == "all"; }
   std::vector<InputOptions> inputs() const;
   /// The seed of --draw-state: after the colon, or the command's.

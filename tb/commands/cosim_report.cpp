@@ -65,13 +65,13 @@ nlohmann::ordered_json model_json(const ModelCheck& model) {
 }
 
 /// The outcome in a few words.
-const char* outcome(const InputResult& r, const ModelCheck& model, bool ok) {
-  if (ok) return "RTL and model agree, errors within bounds";
-  if (!r.lockstep_ok()) return "FAILED: RTL and model differ";
+const char* outcome(const InputResult& r, const ModelCheck* model, bool ok) {
+  if (ok) return model != nullptr ? "RTL and model agree, errors within bounds" : "RTL within the bounds of the truth";
+  if (!r.lockstep_ok()) return model != nullptr ? "FAILED: RTL and model differ" : "FAILED: the RTL stopped";
   if (r.check.compared == 0) return "FAILED: no fragments compared";
   if (!r.check.ok()) return "FAILED: fragments differ from the truth or exceed a bound";
   if (r.skips.differences > 0) return "FAILED: a skip changes fragments";
-  return model.ok() ? "FAILED: regression limits exceeded" : "FAILED: model checks";
+  return model == nullptr || model->ok() ? "FAILED: regression limits exceeded" : "FAILED: model checks";
 }
 
 }  // namespace
@@ -138,12 +138,13 @@ nlohmann::ordered_json CosimReport::result(const InputResult& r) const {
 }
 
 nlohmann::ordered_json CosimReport::all(const InputResult& total, const std::vector<InputResult>& results,
-                                        const ModelCheck& model, bool ok,
+                                        const ModelCheck* model, bool ok,
                                         const std::vector<std::string>& arguments) const {
   nlohmann::ordered_json json = golden::begin_report(config_, options_.common.seed, arguments);
   json.update(result(total));
   json["ok"] = ok;
-  json["model_alone"] = model_json(model);
+  json["judge"] = options_.judge;
+  if (model != nullptr) json["model_alone"] = model_json(*model);
   json["stall"] = options_.stall;
   json["gap"] = options_.gap;
   if (!options_.stall_clocks.empty()) json["stall_clocks"] = options_.stall_clocks;
@@ -178,7 +179,7 @@ void print_row(std::FILE* out, const InputResult& r, bool head) {
   std::fflush(out);
 }
 
-void CosimReport::print_summary(std::FILE* out, const InputResult& r, const ModelCheck& model, bool ok) const {
+void CosimReport::print_summary(std::FILE* out, const InputResult& r, const ModelCheck* model, bool ok) const {
   const CheckResult& c = r.check;
   const auto print = [&](MetricLine line) { std::fputs(line_of(line, r).c_str(), out); };
   std::fprintf(out, "\n%s: %s\n(%s; seed %llu, stall %g, gap %g; configuration %s)\n\n", r.name.c_str(),
@@ -187,11 +188,16 @@ void CosimReport::print_summary(std::FILE* out, const InputResult& r, const Mode
   if (const std::string state = r.state + r.attributes; !state.empty())
     std::fprintf(out, "  draw state    %s\n", state.c_str());
   if (r["draws"] > 0) print(MetricLine::draws);
-  print(MetricLine::lockstep);
+  std::string drawn = line_of(MetricLine::lockstep, r);
+  if (model == nullptr) drawn.replace(drawn.find("lockstep"), 8, "drawn   ");
+  std::fputs(drawn.c_str(), out);
   std::fputs(r.complete ? "\n" : " (ended early)\n", out);
   if (r["left_out"] != 0) print(MetricLine::left_out);
   if (r["fanned_faces"] != 0) print(MetricLine::fanned);
-  print(MetricLine::mismatches);
+  if (model != nullptr)
+    print(MetricLine::mismatches);
+  else
+    std::fputs("  judge          truth: exact coverage, bounds of errors; nothing is compared with the model\n", out);
   if (c.compared == 0)
     std::fputs("  coverage       no fragments compared", out);
   else
@@ -204,14 +210,18 @@ void CosimReport::print_summary(std::FILE* out, const InputResult& r, const Mode
     print(MetricLine::tolerated_depth);
     print(MetricLine::tolerated_visible);
   }
-  std::fprintf(
-      out, "  model checks   %llu function arguments, %llu beyond the limit; %llu directed fragments, %llu faults\n",
-      llu(model.functions.arguments()), llu(model.functions.beyond()), llu(model.directed.compared),
-      llu(model.directed.faults()));
-  if (c.compared > 0) std::fprintf(out, "  throughput     %.3f covered pixels per clock\n", per_clock(r));
-  print_counters(
-      out, r.counters,
-      config_.performance_counters != 0 ? "the RTL's are the same" : "of the model (performance_counters=0)");
+  if (model != nullptr)
+    std::fprintf(
+        out, "  model checks   %llu function arguments, %llu beyond the limit; %llu directed fragments, %llu faults\n",
+        llu(model->functions.arguments()), llu(model->functions.beyond()), llu(model->directed.compared),
+        llu(model->directed.faults()));
+  if (c.compared > 0 && model != nullptr)
+    std::fprintf(out, "  throughput     %.3f covered pixels per clock\n", per_clock(r));
+  const bool counts = config_.performance_counters != 0;
+  if (model != nullptr)
+    print_counters(out, r.counters, counts ? "the RTL's are the same" : "of the model (performance_counters=0)");
+  else if (counts)
+    print_counters(out, r.counters, "of the RTL");
   if (c.compared > 0) print_errors(out, r);
   std::fprintf(out, "\n  speed          %.0f cycles/s with all comparisons", rate(r));
   if (alone_rate(r) > 0) std::fprintf(out, "; RTL alone %.0f (%.1f x)", alone_rate(r), ratio(alone_rate(r), rate(r)));

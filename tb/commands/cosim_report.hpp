@@ -19,11 +19,11 @@ class CosimReport {
   CosimReport(const CosimOptions& options, const Config& config) : options_(options), config_(config) {}
 
   nlohmann::ordered_json result(const InputResult& r) const;
-  nlohmann::ordered_json all(const InputResult& total, const std::vector<InputResult>& results, const ModelCheck& model,
+  nlohmann::ordered_json all(const InputResult& total, const std::vector<InputResult>& results, const ModelCheck* model,
                              bool ok, const std::vector<std::string>& arguments) const;
   /// The command that explains the pixel of the first difference; empty where there is none.
   std::string explain(const InputResult& r) const;
-  void print_summary(std::FILE* out, const InputResult& r, const ModelCheck& model, bool ok) const;
+  void print_summary(std::FILE* out, const InputResult& r, const ModelCheck* model, bool ok) const;
 
  private:
   /// The bound is a statement about exact A, D and R².

@@ -37,10 +37,11 @@ TEST(CosimReport, LinesShowTheirMetrics) {
   CosimOptions options;
   options.common.verbose = true;
   const Config config;
+  const ModelCheck model;
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* const file = open_memstream(&text, &size);
-  CosimReport(options, config).print_summary(file, r, ModelCheck{}, false);
+  CosimReport(options, config).print_summary(file, r, &model, false);
   std::fclose(file);
   const std::string all(text, size);
   std::free(text);

@@ -132,7 +132,8 @@ InputResult CosimRun::run_input(const InputOptions& input_options) {
     if (!result.lockstep_ok()) break;  // more of the same is of no use
   }
   result["passes"] = passes.size();
-  if (!input_options.stress.empty() && result.complete) compare_with_limits(input_options.stress, state, result);
+  if (!input_options.stress.empty() && result.complete && !options_.by_truth())
+    compare_with_limits(input_options.stress, state, result);
 
   if (picture && result["fragments"] > 0) picture->save();
   result.seconds = start.seconds();
@@ -209,6 +210,7 @@ FragmentChecker::Settings CosimRun::checker_settings(const DrawState& state, con
   settings.pass = place.pass;
   settings.first_pass = place.number == 0;
   settings.snapping = !options_.no_snapping;
+  settings.exact = !options_.by_truth();
   return settings;
 }
 
@@ -265,7 +267,7 @@ void CosimRun::run_pass(const DrawInput& input, const DrawState& draw_state, con
   FragmentChecker checker(check_settings, input.quads, snapped, queue);
 
   const std::uint32_t znear = depth_code(state.znear, config_), zfar = depth_code(state.zfar, config_);
-  const bool compare_skips = options_.compare_skips && first;
+  const bool compare_skips = options_.compare_skips && first && !options_.by_truth();
   SkipCheck skip_check(config_, state, compare_skips ? snapped.size() : 0);
   const std::uint32_t id_bits = draw != nullptr ? draw->draw.id_bits : 0;
   std::vector<SnappedQuad> sent;  // under other ids, where the draw has some
@@ -284,7 +286,7 @@ void CosimRun::run_pass(const DrawInput& input, const DrawState& draw_state, con
     if (picture != nullptr) picture->fragment(fragment);
   };
   std::optional<Simulators> simulators;
-  if (first && draw == nullptr && !options_.no_alone) simulators = build_simulators(lockstep);
+  if (first && draw == nullptr && !options_.no_alone && !options_.by_truth()) simulators = build_simulators(lockstep);
   LockstepReport report = simulators ? run_lockstep(simulators->in_lockstep, snapped, lockstep, sink)
                           : draw == nullptr
                               ? run_lockstep(snapped, lockstep, sink)
@@ -334,14 +336,14 @@ void CosimRun::run_pass(const DrawInput& input, const DrawState& draw_state, con
   if (simulators && report.agreed()) time_alone(simulators->alone, snapped, lockstep, report, result);
 }
 
-void CosimRun::shrink_failure(const std::vector<InputResult>& results, const ModelCheck& model) const {
+void CosimRun::shrink_failure(const std::vector<InputResult>& results, bool model_ok) const {
   std::fflush(stdout);
   if (!failed_) {  // the draw itself is right
     const bool limits = std::ranges::any_of(results, [](const InputResult& r) { return !r.beyond_limits.empty(); });
     const bool skips = std::ranges::any_of(results, [](const InputResult& r) { return r.skips.differences > 0; });
     const char* const why = skips         ? "only draws with other skips differ"
                             : limits      ? "only regression limits are exceeded"
-                            : !model.ok() ? "only input-independent model checks failed"
+                            : !model_ok   ? "only input-independent model checks failed"
                                           : "no fragments compared";
     std::fprintf(stderr, "quadrille: not minimized: %s\n", why);
     return;

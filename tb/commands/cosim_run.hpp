@@ -6,7 +6,6 @@
 #include "tb/commands/cosim_picture.hpp"
 #include "tb/commands/cosim_result.hpp"
 #include "tb/commands/cosim_shrink.hpp"
-#include "tb/judge/model_check.hpp"
 
 #include <optional>
 #include <vector>
@@ -24,7 +23,7 @@ class CosimRun {
   /// Whether a pass of an input failed.
   bool failed() const { return failed_.has_value(); }
   /// The first of them is made less, after all that the run has to say.
-  void shrink_failure(const std::vector<InputResult>& results, const ModelCheck& model) const;
+  void shrink_failure(const std::vector<InputResult>& results, bool model_ok) const;
 
  private:
   /// The machine that a draw of several goes on in.

@@ -161,7 +161,7 @@ std::string command_of(const FailingDraw& draw, const FailedPass& failed, const 
   }
   if (failed.lockstep.limit_fragments != 0)
     command += " --limit-fragments " + std::to_string(failed.lockstep.limit_fragments);
-  return command + rtl_of(failed) +
+  return command + rtl_of(failed) + (failed.lockstep.compare ? "" : " --judge truth") +
          " --no-alone --no-shrink";  // nothing is timed, and there is nothing less to be looked for
 }
 

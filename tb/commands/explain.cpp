@@ -1,5 +1,7 @@
 // quadrille explain: one pixel taken apart, number by number.
 #include "tb/commands/commands.hpp"
+#include "tb/commands/cosim_options.hpp"
+#include "tb/commands/cosim_options.hpp"
 #include "tb/commands/explain_rtl.hpp"
 #include "tb/options/command_line.hpp"
 
@@ -45,8 +47,7 @@ int explain_pixel(const ExplainOptions& options, const Invocation& invocation) {
   if (options.engine != "model" && options.engine != "rtl")
     throw UsageError("--engine " + options.engine + ": expected model or rtl");
   if (!options.rtl.empty() && options.engine != "rtl") throw UsageError("--rtl needs --engine rtl");
-  if (!options.rtl.empty() && !std::filesystem::exists(options.rtl))
-    throw UsageError("--rtl " + options.rtl + ": no such file or directory");
+  check_rtl(options.rtl);
   std::vector<std::string> read = options.input.files();
   read.push_back(options.common.config_file);
   check_outputs({options.html, options.input.save_camera, options.common.json}, read);

@@ -232,7 +232,7 @@ TEST_F(Cli, NoCreaseHasAReason) {
 // The user's sources are input: 2. A missing tool is not: 3.
 TEST_F(Cli, BadRtlIsAnInputError) {
   fs::create_directory(file("empty"));
-  refuses(2, "cosim --scene bowtie --rtl empty", {"--rtl empty", "no SystemVerilog file"});
+  refuses(2, "cosim --scene bowtie --rtl empty", {"--rtl empty", "no quadrille.sv in this directory"});
   write("bad.v", "module quadrille(input clk\n");
   refuses(2, "cosim --scene bowtie --rtl bad.v", {"--rtl bad.v: ", "bad.v:", "syntax error"});
   EXPECT_EQ(run("cosim --scene bowtie --rtl bad.v", "PATH=/nowhere").status, 3);

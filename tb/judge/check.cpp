@@ -27,7 +27,7 @@ FragmentChecker::FragmentChecker(const Settings& settings, std::span<const Windo
     : settings_(settings), given_(given), snapped_(snapped), queue_(queue), bounds_(settings.config) {
   covered_.emplace_back();
   if (settings.first_pass && skips_hidden(settings.config, settings.state))
-    hidden_ = std::make_unique<HiddenCheck>(settings.config, settings.state, settings.depths);
+    hidden_ = std::make_unique<HiddenCheck>(settings.config, settings.state, settings.depths, settings.exact);
 }
 
 void FragmentChecker::add(const CheckResult& part) {

@@ -183,6 +183,7 @@ class FragmentChecker {
     Pass pass;
     bool first_pass = true;          ///< also check coverage and count
     bool snapping = true;            ///< also compare with the given quads
+    bool exact = true;               ///< the machine has the model's bits: what it hides is held against these too
     HiddenDepths* depths = nullptr;  ///< of earlier draws in the same machine, which go on; must outlive the checker
   };
 

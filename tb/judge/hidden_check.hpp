@@ -32,11 +32,12 @@ class HiddenDepths {
 class HiddenCheck {
  public:
   /// `before`: what earlier draws left in the depth buffer, which goes on and must outlive this; null: nothing.
-  HiddenCheck(const Config& config, const DrawState& state, HiddenDepths* before = nullptr);
+  /// `exact`: the machine has the model's bits.
+  HiddenCheck(const Config& config, const DrawState& state, HiddenDepths* before = nullptr, bool exact = true);
 
   /// A fragment of the quad that is being drawn.
   void fragment(const Fragment& fragment);
-  /// The quad is complete. Draws it once more with nothing hidden: what the machine drew must be there, in this order
+  /// The quad is complete. Where the machine is exact, draws it once more with nothing hidden: what the machine drew must be there, in this order
   /// and bit by bit, and of what is missing nothing may be nearer than the buffer. Returns what is wrong first: the
   /// pixel and words.
   struct Fault {
@@ -52,6 +53,7 @@ class HiddenCheck {
 
  private:
   int width_, height_, depth_bits_;
+  bool exact_;
   UntimedModel everything_;
   HiddenDepths own_;
   HiddenDepths& depth_;

@@ -1,15 +1,12 @@
 #include "tb/lockstep/lockstep.hpp"
 
 #include "model/drive.hpp"
-#include "model/port/bit_vector.hpp"
 #include "tb/device/forwarding_device.hpp"
 #include "tb/device/verilated_device.hpp"
 #include "tb/lockstep/device_ahead.hpp"
 #include "tb/lockstep/driven_device.hpp"
-#include "tb/support/stopwatch.hpp"
+#include "tb/lockstep/run.hpp"
 
-#include <algorithm>
-#include <cstring>
 #include <future>
 #include <optional>
 #include <system_error>
@@ -18,35 +15,6 @@
 namespace quadrille::tb {
 
 namespace {
-
-int fragment_width(const Config& config) { return boundary_layout(Boundary::fragment, config).bits(); }
-
-/// Gives a run up when nothing enters or leaves the machine for longer than its longest silent walk.
-class Watchdog {
- public:
-  explicit Watchdog(const LockstepOptions& o) : limit_(o.watchdog) {
-    if (limit_ != 0) return;
-    // A homogeneous quad without a fragment walks every tile of the viewport and, with the hierarchy switched off,
-    // every row.
-    const auto tiles = [&](int pixels) { return static_cast<std::uint64_t>(pixels / o.config.tile() + 2); };
-    limit_ =
-        100'000 + 4 * tiles(o.state.width) * tiles(o.state.height) * static_cast<std::uint64_t>(o.config.tile() + 2);
-  }
-
-  /// True when the run is to be given up.
-  bool silent(bool progress) {
-    silent_ = progress ? 0 : silent_ + 1;
-    return silent_ > limit_;
-  }
-  [[noreturn]] void give_up(std::uint64_t cycle, std::uint64_t beats, std::uint64_t fragments) const {
-    throw WatchdogError("the machine hangs: busy, but no vertex, tile or fragment moved for " + std::to_string(limit_) +
-                        " clocks, up to cycle " + std::to_string(cycle) + " (" + std::to_string(beats) +
-                        " vertices in, " + std::to_string(fragments) + " fragments out)");
-  }
-
- private:
-  std::uint64_t limit_, silent_ = 0;
-};
 
 /// Both side by side. The device leads: it takes the beats, so that its side can be ahead of the model's.
 template <class DeviceSide>
@@ -77,60 +45,6 @@ class DrivenPair {
   DrivenModel& model_;
   std::uint64_t& cycle_;
 };
-
-/// What every run has besides its machine.
-struct Run {
-  const LockstepOptions& options;
-  Stimulus stimulus;
-  FragmentMonitor monitor;
-  Watchdog watchdog;
-  Stopwatch stopwatch{};
-
-  Run(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink)
-      : options(o), stimulus(quads, o), monitor(o.config, fragment_width(o.config), sink), watchdog(o) {}
-
-  bool enough() const { return options.limit_fragments != 0 && monitor.fragments() >= options.limit_fragments; }
-  [[noreturn]] void give_up(std::uint64_t cycle) const {
-    watchdog.give_up(cycle, stimulus.vertices.beats_taken(), monitor.fragments());
-  }
-  /// Calls the progress function at most every 2^14 clocks.
-  void show_progress(std::uint64_t cycle) const {
-    if ((cycle & 0x3fff) != 0 || !options.progress) return;
-    double part = stimulus.vertices.fraction();
-    if (options.limit_fragments != 0) {
-      part = std::max(part, static_cast<double>(monitor.fragments()) / static_cast<double>(options.limit_fragments));
-    }
-    options.progress(std::min(part, 1.0));
-  }
-};
-
-/// Calls f(lane, words) for the fragments of this clock, in their order.
-template <class F>
-void for_each_lane(const DeviceSample& out, F&& f) {
-  for (std::size_t lane = 0; lane < most_lanes; ++lane)
-    if ((out.fragment_mask >> lane & 1) != 0) f(lane, out.fragment[lane]);
-}
-
-/// `hand_over(monitor, outputs)` in every clock in which fragments leave.
-template <class Machine, class HandOver>
-AloneRun run_alone(Machine& machine, std::span<const SnappedQuad> quads, const LockstepOptions& o,
-                   const FragmentSink& sink, HandOver&& hand_over) {
-  Run run(quads, o, sink);
-  AloneRun result;
-  result.cycles = drive(machine, run.stimulus, [&](std::uint64_t cycle, const auto& out, bool taken) {
-    const bool moved = out.fragment_valid && run.stimulus.ready();
-    if (moved) hand_over(run.monitor, out);
-    if ((run.stimulus.done() && !out.busy) || run.enough()) return false;
-    if (run.watchdog.silent(taken || moved)) run.give_up(cycle);
-    run.show_progress(cycle);
-    return true;
-  });
-  result.seconds = run.stopwatch.seconds();
-  result.quads = run.stimulus.vertices.beats_taken() / 4;
-  result.fragments = run.monitor.fragments();
-  result.fragment_hash = run.monitor.hash();
-  return result;
-}
 
 /// A device whose waveform begins with a clock of the run.
 class TracedLater : public ForwardingDevice {
@@ -178,7 +92,7 @@ bool has_thread(const LockstepOptions& o) { return o.threads > 1 && !o.trace && 
 /// One draw of both machines, as `model` is: after reset, or as the draw before left it. `another` may follow.
 LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboard, std::span<const SnappedQuad> quads,
                         const LockstepOptions& o, const FragmentSink& sink, bool another) {
-  Run run(quads, o, sink);
+  MachineRun run(quads, o, sink);
   LockstepReport report;
   std::uint64_t clocks = 0, differing_clocks = 0;
   const auto look = [&](std::uint64_t cycle, const auto& out, bool taken) {
@@ -255,6 +169,7 @@ LockstepReport run_both(Device& device, DrivenModel& model, Scoreboard& scoreboa
 
 LockstepReport run_lockstep(Device& device, std::span<const SnappedQuad> quads, const LockstepOptions& o,
                             const FragmentSink& sink) {
+  if (!o.compare) return run_uncompared(device, quads, o, sink);
   DrivenModel model(o.config, o.state, probes_of(o));
   Scoreboard scoreboard(o.config, quads, o.probes, o.seed);
   return run_both(device, model, scoreboard, quads, o, sink, false);
@@ -343,41 +258,6 @@ Simulators build_simulators(const LockstepOptions& o) {
   std::future<Simulator> alone = std::async(std::launch::async, [&] { return simulator_alone(untraced); });
   Simulator in_lockstep = simulator_in_lockstep(o);
   return {std::move(in_lockstep), alone.get()};
-}
-
-AloneRun run_rtl_alone(const Simulator& simulator, std::span<const SnappedQuad> quads, const LockstepOptions& o,
-                       const FragmentSink& sink) {
-  VerilatedDevice device(simulator, o.config, o.seed);
-  if (o.trace) device.open_trace(*o.trace);
-  DrivenDevice machine(device, o);
-  AloneRun run = run_alone(machine, quads, o, sink, [](FragmentMonitor& monitor, const DeviceSample& out) {
-    for_each_lane(out, [&](std::size_t, const std::uint32_t* words) { monitor.handed_over(words, nullptr); });
-  });
-  if (o.config.performance_counters != 0)
-    for (std::size_t i = 0; i < counter_count; ++i) run.counters.value[i] = device.counter(i);
-  device.close_trace();
-  return run;
-}
-
-AloneRun run_rtl_alone(std::span<const SnappedQuad> quads, const LockstepOptions& o, const FragmentSink& sink) {
-  return run_rtl_alone(simulator_alone(o), quads, o, sink);
-}
-
-AloneRun run_clocked_model_alone(std::span<const SnappedQuad> quads, const LockstepOptions& o,
-                                 const FragmentSink& sink) {
-  const int width = fragment_width(o.config);
-  std::vector<std::uint64_t> packed(static_cast<std::size_t>((width + 63) / 64));
-  std::vector<std::uint32_t> words(words_for(width));
-  DrivenModel machine(o.config, o.state);
-  AloneRun run = run_alone(machine, quads, o, sink, [&](FragmentMonitor& monitor, const ClockedOutputs& out) {
-    out.for_each_fragment([&](const Fragment& fragment) {
-      pack_fragment(fragment, o.config, packed.data(), width);
-      std::memcpy(words.data(), packed.data(), words.size() * sizeof words[0]);
-      monitor.handed_over(words.data(), &fragment);
-    });
-  });
-  run.counters = machine.counters();
-  return run;
 }
 
 }  // namespace quadrille::tb

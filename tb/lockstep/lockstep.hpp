@@ -41,6 +41,7 @@ struct LockstepOptions {
   bool stop_at_first = true;               ///< end at the first difference
   std::uint64_t limit_differences = 1000;  ///< else end after so many clocks with a difference; 0: no limit
   bool probes = true;                      ///< compare at the stage boundaries too
+  bool compare = true;                     ///< false, without probes: the RTL alone, whatever the model has
   std::uint64_t watchdog = 0;  ///< clocks without progress after which a run is given up; 0: from the viewport
   std::function<void(double)> progress;  ///< called now and then with the part done, 0 to 1
   std::filesystem::path source;          ///< RTL instead of the project's: directory, or one Verilog file
@@ -116,6 +117,7 @@ class LockstepSession {
 /// One side alone.
 struct AloneRun {
   std::uint64_t quads = 0, fragments = 0, cycles = 0;
+  bool complete = false;  ///< every quad was drawn: not ended by a limit
   double seconds = 0;  ///< of the loop
   std::uint64_t fragment_hash = 0;
   PerformanceCounters counters;  ///< of the clocked model; of the RTL if the configuration has them, else 0

@@ -3,7 +3,7 @@
 # its tests through ctest. What it needs besides Debian's packages comes from PyPI. Arguments go to ctest.
 set -euo pipefail
 source "$(dirname "$0")/../../../scripts/setup.sh"
-install_packages g++ cmake ninja-build libassimp-dev python3 python3-dev python3-venv
+install_packages g++ make cmake ninja-build iverilog libassimp-dev perl python3 python3-dev python3-venv
 folder=$root/build/python
 rm -rf "$folder"/{environment,wheel}
 python3 -m venv "$folder/environment"

@@ -5,6 +5,7 @@ A build (one wrapper or the machine, one configuration) serves every suite of it
 import argparse
 import concurrent.futures
 import functools
+import json
 import os
 import re
 import shutil
@@ -156,17 +157,20 @@ class Build:
 # ---- Runs ----------------------------------------------------------------------------------------------------------------------
 
 
-def replay(build, suite):
-    """(matches, lines to print)."""
+def replay(build, suite, record=None):
+    """(matches, lines to print). `record`: the folder of a set that gets the responses, whatever they are."""
     label = f"{suite.name}" + (" (netlist)" if build.simulator == "netlist" else "")
     if build.error:
         return False, [f"{label}: the RTL does not build for this set", str(build.error)]
     begin = time.monotonic()
-    result = subprocess.run(build.command + suite.plusargs(), cwd=build.directory, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+    plusargs = suite.plusargs() + ([f"+record={os.path.join(record, suite.name, 'response.hex')}"] if record else [])
+    result = subprocess.run(build.command + plusargs, cwd=build.directory, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                             stderr=subprocess.STDOUT, text=True, errors="replace")
     seconds = time.monotonic() - begin
     summary = re.search(rf"^{re.escape(suite.name)}: (\d+) vectors, (\d+) mismatches$", result.stdout, re.MULTILINE)
     times = f"build {build.seconds:.1f} s, run {seconds:.1f} s"
+    if record and summary and summary[1] == str(suite.vectors()) and result.returncode == 0:
+        return True, [f"{label}: {summary[1]} vectors recorded, {summary[2]} differ from the set ({times})"]
     if summary and summary.groups() == (str(suite.vectors()), "0") and result.returncode == 0:
         clocks = re.findall(r": (\d+ clocks(?: with stalls)?)$", result.stdout, re.MULTILINE)
         return True, [f"{label}: {summary[1]} vectors, 0 mismatches ({', '.join(clocks + [times])})"]
@@ -205,6 +209,43 @@ def select(options):
     return replayed, [suite.name for suite in suites if suite.kind in WITHOUT_RTL]
 
 
+def check_record(options, suites):
+    if os.path.lexists(options.record):
+        raise InputError(f"--record {options.record}: exists; name a new folder")
+    if options.netlist:
+        raise InputError("--record conflicts with --netlist")
+    machines = [suite.name for suite in suites if suite.kind == "machine"]
+    if machines:
+        raise InputError(f"--record: {machines[0]} is no suite of a unit; choose suites with --suite")
+    if shutil.which(options.quadrille) is None:
+        raise MissingTool(f"no program {options.quadrille}, which seals the set. Build it (scripts/cosim.sh) or name it in $QUADRILLE")
+
+
+def copy_set(options, suites, folder):
+    """The set with these suites alone."""
+    with open(os.path.join(options.directory, "manifest.json"), encoding="utf-8") as file:
+        manifest = json.load(file)
+    names = [suite.name for suite in suites]
+    manifest["suites"] = {name: manifest["suites"][name] for name in names}
+    os.makedirs(folder)
+    for name in names:
+        shutil.copytree(os.path.join(options.directory, name), os.path.join(folder, name))
+    with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as file:
+        file.write(json.dumps(manifest, indent=2, ensure_ascii=False) + "\n")
+
+
+def seal(options, folder):
+    """Whole and sealed, or not there."""
+    result = subprocess.run([options.quadrille, "golden", "seal", folder, "--quiet"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True)
+    if result.returncode != 0:
+        raise InputError(f"not sealed: {result.stdout.strip().replace(folder, options.record)}")
+    try:
+        shutil.move(folder, options.record)
+    except OSError as error:
+        raise InputError(f"--record {options.record}: {error.strerror or error}") from None
+
+
 def plan(options, suites, work):
     """A build for each simulator, device, shape and configuration; the machine, which takes longest, first."""
     wanted = [(options.simulator, suite) for suite in suites]
@@ -232,6 +273,7 @@ def main():
     parser.add_argument("--netlist", action="store_true",
                         help=f"also synthesized gates under Icarus (default suites: {', '.join(NETLISTS)})")
     parser.add_argument("--rtl", metavar="DIR", default=os.path.join(ROOT, "rtl"), help="RTL with the same modules (default: rtl)")
+    parser.add_argument("--record", metavar="OUT", help="write the responses of the RTL's units as a sealed set of their own, in a new folder")
     parser.add_argument("--jobs", type=int, metavar="N", default=os.cpu_count(), help="parallel builds and runs (default: processors)")
     options = parser.parse_args()
     options.rtl = os.path.abspath(options.rtl)
@@ -239,6 +281,8 @@ def main():
     begin = time.monotonic()
     try:
         suites, skipped = select(options)
+        if options.record:
+            check_record(options, suites)
         require(TOOLS[options.simulator] + (TOOLS["netlist"] if options.netlist else ()))
         others = [suite.name for suite in suites if not has_kept_tables(suite)]
         if others and shutil.which(options.quadrille) is None:
@@ -250,15 +294,21 @@ def main():
             print(f"{name}: no RTL, not replayed")
         with tempfile.TemporaryDirectory(prefix="replay.") as work, concurrent.futures.ThreadPoolExecutor(max(1, options.jobs)) as pool:
             runs = []
+            recorded = os.path.join(work, "set") if options.record else None
+            if recorded:
+                copy_set(options, suites, recorded)
             building = [pool.submit(build) for build in plan(options, suites, work)]
             for done in concurrent.futures.as_completed(building):
                 build = done.result()
-                runs += [pool.submit(replay, build, suite) for suite in build.suites]
+                runs += [pool.submit(replay, build, suite, recorded) for suite in build.suites]
             failed = 0
             for done in concurrent.futures.as_completed(runs):
                 good, text = done.result()
                 failed += not good
                 print("\n".join(text), flush=True)
+            if recorded and not failed:
+                seal(options, recorded)
+                print(f"{options.record}: sealed; scripts/replay.sh {options.record} compares with it")
     except InputError as error:
         print(f"replay: {error}", file=sys.stderr)
         return error.status
