@@ -138,7 +138,7 @@ def wanted():
     typed = [p for p in SCRIPTS if p.parent.name == "scripts" and not p.name.startswith("check_")]
     yield "scripts", {path.name for path in typed}, True
     yield "options of scripts", set().union(*map(script_options, typed)), True
-    for module in ("rtl/quadrille.sv", "rtl/axi4_stream/quadrille_axi4_stream.sv"):
+    for module in ("rtl/quadrille.sv", "rtl/wrap/quadrille_axi4_stream.sv"):
         header = re.search(r"^module .*?^\);", (ROOT / module).read_text(encoding="utf-8"), re.M | re.S)[0]
         yield f"ports and parameters of {module}", re.findall(r"(?:input|output|localparam|parameter) .*?(\w+)(?: =.*)?,?$", header, re.M), False
     yield "keys of plans", {*itertools.chain.from_iterable(map(plan_keys, PLANS))}, False
