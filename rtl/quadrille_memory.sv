@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every memory of the machine: DEPTH words, one write port, one read port that ends in a register. Replace this module
-// to use memory macros (README.md, Memories). Not reset.
+// to use memory macros (wrap/README.md, Memories). Not reset.
 //
 // A read takes a clock; data_o stays until the next one. clear_i makes data_o 0 and goes before a read: the fragment
 // FIFO alone uses it. A place that is read in the clock of its write gives the word before the write. Only with OLD = 1
