@@ -7,7 +7,7 @@
 //                      hidden when the draw begins; TUSER[1]: the frame goes on behind this draw
 //     s_axis_vertex    vertex_i, four beats a quad, TKEEP all ones; TLAST with the draw's last beat
 //     m_axis_fragment  fragment_o, TKEEP ones in the bytes of the lanes that have a fragment, at least one; then one
-//                      null beat (TKEEP and TDATA 0) with TLAST, which ends the frame; TUSER with it: vertices were lost
+//                      null beat (TKEEP and TDATA 0) with TLAST, which ends the frame; TUSER with it: vertices lost
 //
 // TDATA holds a record (rtl/README.md, Ports) at its low end, each lane's padded with zeros to whole bytes; padding
 // that comes in is not read. Errors and flush_i: README.md. Vertices and fragments pass spill registers: every output

@@ -131,7 +131,7 @@ module quadrille_registers #(
     end
   end
 
-  // ---- Draws and interrupt: an event of the clock in which its bit is cleared stays ----------------------------------
+  // ---- Draws and interrupt: an event of the clock in which its bit is cleared stays --------------------------------
   assign events[quadrille_register_map_pkg::INTERRUPT_FRAME_END] = frame_end_i;
   assign events[quadrille_register_map_pkg::INTERRUPT_DRAW_END] = draw_end_i;
   assign events[quadrille_register_map_pkg::INTERRUPT_ERROR_TLAST] = error_tlast_i;
