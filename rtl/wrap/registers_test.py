@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""Tests of the register map: what was generated is current, a driver in C compiles with it, a map that is wrong is refused."""
+"""Tests of the register map: what was generated is current, a driver in C compiles with it, a map that is wrong is refused; and
+that the clock constraints name the wrapper's ports."""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -46,6 +48,15 @@ class Map(unittest.TestCase):
             with self.assertRaisesRegex(registers.BadMap, text):
                 registers.Register("R", GOOD | change)
         self.assertEqual(registers.Register("R", GOOD).mask, 0x1FF)
+
+
+class Constraints(unittest.TestCase):
+    def test_inputs(self):
+        ports = re.findall(r"input logic (?:\[[^\n]*\] )?(\w+)", (HERE / "quadrille_axi4.sv").read_text(encoding="utf-8"))
+        text = (HERE / "quadrille.sdc").read_text(encoding="utf-8")
+        constrained = re.search(r"set_input_delay .*get_ports {([^}]*)}", text)[1].split()
+        self.assertEqual(sorted(["aclk", *(name.rstrip("*") for name in constrained)]), sorted(ports))
+        self.assertIn("create_clock -name aclk -period $period [get_ports aclk]", text)
 
 
 if __name__ == "__main__":

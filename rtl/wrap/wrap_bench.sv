@@ -78,7 +78,6 @@ module wrap_bench;
       end
     end
   endtask
-
   // ---- Vertices ----------------------------------------------------------------------------------------------------
   int beat = 0, limit = 0;  // next vertex, the first that is not offered
   int started = 0, ahead = 0;  // draws begun; beats taken of a draw that is not
@@ -383,7 +382,8 @@ module wrap_bench;
     if (!$value$plusargs("beats=%d", beats)) $fatal(1, "+beats=N is missing");
     if (!$value$plusargs("fragments=%d", fragments)) $fatal(1, "+fragments=N is missing");
     if (!$value$plusargs("seed=%d", seed)) seed = 1;
-    if (draws < 1 || beats < 1 || fragments < 1 || draws > LINES || beats > LINES || fragments > LINES) $fatal(1, "not 1 to %0d lines", LINES);
+    if (draws < 1 || beats < 1 || fragments < 1) $fatal(1, "no vectors");
+    if (draws > LINES || beats > LINES || fragments > LINES) $fatal(1, "more than %0d lines", LINES);
     $readmemh({set, "/states.hex"}, states, 0, draws - 1);
     $readmemh({set, "/stimulus.hex"}, stimuli, 0, beats - 1);
     $readmemh({set, "/response.hex"}, responses, 0, fragments - 1);
