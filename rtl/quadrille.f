@@ -37,6 +37,7 @@ quadrille_law_of_cosines.sv
 quadrille_masked_depth.sv
 quadrille_mean_value_ratios.sv
 quadrille_mean_value_weights.sv
+quadrille_memory.sv
 quadrille_normalise.sv
 quadrille_offset_digits.sv
 quadrille_one_of_four.sv

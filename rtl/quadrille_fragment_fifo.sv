@@ -24,7 +24,6 @@ module quadrille_fragment_fifo #(
 );
   localparam int DEPTH = 1 << DEPTH_LOG2;
 
-  logic [WIDTH-1:0] word_q[0:DEPTH-1];
   logic [DEPTH_LOG2-1:0] write_q, read_q;
   logic [DEPTH_LOG2:0] count_q;  // of words in memory
   logic some_q;  // count_q is not 0
@@ -41,7 +40,6 @@ module quadrille_fragment_fifo #(
       count_q <= '0;
       some_q <= 1'b0;
       valid_o <= 1'b0;
-      data_o <= '0;
       freed_o <= 1'b0;
     end else begin
       if (push) write_q <= write_q + DEPTH_LOG2'(1);
@@ -49,27 +47,14 @@ module quadrille_fragment_fifo #(
       count_q <= count_q + (DEPTH_LOG2 + 1)'(push) - (DEPTH_LOG2 + 1)'(load);
       some_q <= push || count_q > (DEPTH_LOG2 + 1)'(load);
       freed_o <= valid_o && ready_i;
-      if (free) begin
-        valid_o <= some_q;
-        data_o <= some_q ? word_q[read_q] : '0;
-      end
+      if (free) valid_o <= some_q;
     end
   end
 
-  always_ff @(posedge clk_i) if (push) word_q[write_q] <= data_i;
-
-  // A single lane has a fragment when there is a word.
-  if (LANES == 1) begin : gen_one_lane
-    assign mask_o = valid_o;
-  end else begin : gen_lanes
-    logic [LANES-1:0] mask_q[0:DEPTH-1];
-
-    always_ff @(posedge clk_i) begin
-      if (push) mask_q[write_q] <= push_i;
-      if (!rst_ni) mask_o <= '0;
-      else if (free) mask_o <= some_q ? mask_q[read_q] : '0;
-    end
-  end
+  quadrille_memory #(.WIDTH(LANES + WIDTH), .DEPTH(DEPTH)) u_word (
+      .clk_i, .write_i(push), .write_place_i(write_q), .write_data_i({push_i, data_i}), .read_i(free),
+      .read_place_i(read_q), .clear_i(!rst_ni || (free && !some_q)), .data_o({mask_o, data_o})
+  );
 
 `ifndef SYNTHESIS
   // No overflow; valid held and payload stable under stall; zero while not valid.

@@ -17,37 +17,16 @@ module quadrille_gradient_bank #(
 );
   localparam int SLOTS = 1 << SLOT;
   `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup)
-  logic [5*GRAD-1:0] stamp_gx, stamp_gy;
-  logic [4:0] stamp_tie_pos, stamp_tie_neg;
-  logic [3:0] stamp_visible;
-  logic [13:0] stamp_q[0:SLOTS-1];
-  assign edges_o = {stamp_gx, stamp_gy, stamp_tie_pos, stamp_tie_neg, stamp_visible};
+  logic [quadrille_pkg::EDGES_BITS-1:0] edges;
+  assign edges = {setup.lin_gx[5*GRAD-1:0], setup.lin_gy[5*GRAD-1:0], setup.tie_pos, setup.tie_neg, setup.visible};
 
-  for (genvar g = 0; g < 6; g++) begin : gen_linear
-    logic [GRAD-1:0] gx_q[0:SLOTS-1];
-    logic [GRAD-1:0] gy_q[0:SLOTS-1];
+  quadrille_memory #(.WIDTH(quadrille_pkg::EDGES_BITS), .DEPTH(SLOTS)) u_edges (
+      .clk_i, .write_i(take_i), .write_place_i(setup.slot), .write_data_i(edges), .read_i(stamp_load_i),
+      .read_place_i(stamp_slot_i), .clear_i(1'b0), .data_o(edges_o)
+  );
 
-    always_ff @(posedge clk_i) begin
-      if (take_i) begin
-        gx_q[setup.slot] <= setup.lin_gx[g*GRAD+:GRAD];
-        gy_q[setup.slot] <= setup.lin_gy[g*GRAD+:GRAD];
-      end
-      emit_gx_o[g*GRAD+:GRAD] <= gx_q[emit_slot_i];
-      emit_gy_o[g*GRAD+:GRAD] <= gy_q[emit_slot_i];
-    end
-
-    if (g < 5) begin : gen_stamp
-      always_ff @(posedge clk_i) begin
-        if (stamp_load_i) begin
-          stamp_gx[g*GRAD+:GRAD] <= gx_q[stamp_slot_i];
-          stamp_gy[g*GRAD+:GRAD] <= gy_q[stamp_slot_i];
-        end
-      end
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (take_i) stamp_q[setup.slot] <= {setup.tie_pos, setup.tie_neg, setup.visible};
-    if (stamp_load_i) {stamp_tie_pos, stamp_tie_neg, stamp_visible} <= stamp_q[stamp_slot_i];
-  end
+  quadrille_memory #(.WIDTH(12 * GRAD), .DEPTH(SLOTS)) u_gradients (
+      .clk_i, .write_i(take_i), .write_place_i(setup.slot), .write_data_i({setup.lin_gx, setup.lin_gy}), .read_i(1'b1),
+      .read_place_i(emit_slot_i), .clear_i(1'b0), .data_o({emit_gx_o, emit_gy_o})
+  );
 endmodule

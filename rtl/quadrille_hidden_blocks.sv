@@ -138,7 +138,6 @@ module quadrille_hidden_blocks #(
 
   // ---- Memory ------------------------------------------------------------------------------------------------------
   // A word that is written while it is read is not looked at, but before_q3 (asserted).
-  (* no_rw_check *) logic [WORD-1:0] word_mem[0:(1<<PLACES)-1];
   logic write;
   logic [INDEX-1:0] wipe_index, write_index;
   logic [WORD-1:0] new_word;
@@ -151,13 +150,12 @@ module quadrille_hidden_blocks #(
   assign write_index = wipe_i ? wipe_index : place_q2[INDEX-1:0];
   assign new_word = {tag_q2, epoch_i, wipe_i ? {UNKNOWN, (H + TILES)'(0)} : next};
 
-  always_ff @(posedge clk_i) begin
-    if (write) word_mem[write_place] <= new_word;
-    if (go_i) word_q1 <= word_mem[place];
-  end
+  quadrille_memory #(.WIDTH(WORD), .DEPTH(1 << PLACES)) u_word (
+      .clk_i, .write_i(write), .write_place_i(write_place), .write_data_i(new_word), .read_i(go_i),
+      .read_place_i(place), .clear_i(1'b0), .data_o(word_q1)
+  );
 
   for (genvar b = 0; b < BANKS; b++) begin : gen_bank
-    logic [BOUND-1:0] bound_mem[0:(1<<INDEX)-1];
     logic [BOUND-1:0] bound_q1;
     logic [WIDE-1:0] x, y;
     logic [INDEX-1:0] index;
@@ -169,10 +167,13 @@ module quadrille_hidden_blocks #(
     assign y = (b / 2 == 0) ? even_y : odd_y;
     assign index = {y[ROW-2:0], x[COLUMN-2:0]};
     assign tag = {y[ROW-1+:TAG_Y], x[COLUMN-1+:TAG_X]};
+    quadrille_memory #(.WIDTH(BOUND), .DEPTH(1 << INDEX), .OLD(1)) u_bound (
+        .clk_i, .write_i(write && (wipe_i || place_q2[PLACES-1-:2] == 2'(b))), .write_place_i(write_index),
+        .write_data_i(new_word[WORD-1-:BOUND]), .read_i(test_i), .read_place_i(index), .clear_i(1'b0), .data_o(bound_q1)
+    );
+
     always_ff @(posedge clk_i) begin
-      if (write && (wipe_i || place_q2[PLACES-1-:2] == 2'(b))) bound_mem[write_index] <= new_word[WORD-1-:BOUND];
       if (test_i) begin
-        bound_q1 <= bound_mem[index];
         asked_q1 <= tag;
         needed_q1 <= needs_x[b%2] && needs_y[b/2];
       end

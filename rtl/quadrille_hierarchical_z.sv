@@ -48,7 +48,6 @@ module quadrille_hierarchical_z #(
   localparam int WIDE = TC + PLACE;  // so that the slices below exist
 
   // ---- The quad ----------------------------------------------------------------------------------------------------
-  logic [2*H:0] interval_q[0:(1<<SLOT)-1];  // {lowers, near, far}
   logic start_q1, lowers_q;
   logic [SLOT-1:0] start_slot_q1;
   logic [H-1:0] near_q, far_q;
@@ -57,13 +56,16 @@ module quadrille_hierarchical_z #(
   always_ff @(posedge clk_i) begin
     start_q1 <= start_i;
     start_slot_q1 <= start_slot_i;
-    if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, near_i, far_i};
     if (take_i) begin
-      {lowers_q, near_q, far_q} <= interval_q[setup.slot];
       tile_x0_q <= setup.tile_x0;
       tile_y0_q <= setup.tile_y0;
     end
   end
+
+  quadrille_memory #(.WIDTH(2 * H + 1), .DEPTH(1 << SLOT)) u_interval (
+      .clk_i, .write_i(start_q1), .write_place_i(start_slot_q1), .write_data_i({lowers_i && on_i, near_i, far_i}),
+      .read_i(take_i), .read_place_i(setup.slot), .clear_i(1'b0), .data_o({lowers_q, near_q, far_q})
+  );
 
   // ---- The tile under test -----------------------------------------------------------------------------------------
   logic [TC-1:0] tile_x, tile_y;
@@ -92,7 +94,6 @@ module quadrille_hierarchical_z #(
   end
 
   // ---- Memory, epochs ----------------------------------------------------------------------------------------------
-  logic [WORD-1:0] word_q[0:(1<<PLACE)-1];
   logic [WORD-1:0] word_q1, write_word;
   logic [PLACE-1:0] write_place, wipe_q;
   logic [EPOCH-1:0] epoch_q, word_epoch;
@@ -109,10 +110,10 @@ module quadrille_hierarchical_z #(
   assign write_place = wiping_q ? wipe_q : place_q1;
   assign write_word = {tag_q1, epoch_q, wiping_q ? {H{1'b1}} : far_q};
 
-  always_ff @(posedge clk_i) begin
-    if (wiping_q || (lower && test.go)) word_q[write_place] <= write_word;
-    if (test.go) word_q1 <= word_q[place];
-  end
+  quadrille_memory #(.WIDTH(WORD), .DEPTH(1 << PLACE), .OLD(1)) u_word (
+      .clk_i, .write_i(wiping_q || (lower && test.go)), .write_place_i(write_place), .write_data_i(write_word),
+      .read_i(test.go), .read_place_i(place), .clear_i(1'b0), .data_o(word_q1)
+  );
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin

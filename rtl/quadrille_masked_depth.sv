@@ -44,26 +44,24 @@ module quadrille_masked_depth #(
   localparam logic [H-1:0] UNKNOWN = {H{1'b1}};  // not '1, of which Yosys 0.23 makes 1 in a parameter
 
   // ---- The quads ---------------------------------------------------------------------------------------------------
-  logic [2*H:0] interval_q[0:(1<<SLOT)-1];  // {lowers, near, far}
+  logic [(1<<SLOT)-1:0] lowers_q;
   logic start_q1;
   logic [SLOT-1:0] start_slot_q1;
 
   always_ff @(posedge clk_i) begin
     start_q1 <= start_i;
     start_slot_q1 <= start_slot_i;
-    if (start_q1) interval_q[start_slot_q1] <= {lowers_i && on_i, near_i, far_i};
+    if (start_q1) lowers_q[start_slot_q1] <= lowers_i && on_i;
   end
 
   // ---- The tile in the tag register --------------------------------------------------------------------------------
   logic [WIDE-1:0] wide_x, wide_y;
   logic [PLACE-1:0] place;
   logic [TAG-1:0] tag;
-  logic [2*H:0] interval;
   assign wide_x = WIDE'(tile.tile_x);
   assign wide_y = WIDE'(tile.tile_y);
   assign place = {wide_y[ROW-1:0], wide_x[COLUMN-1:0]};
   assign tag = {wide_y[ROW+:TAG_Y], wide_x[COLUMN+:TAG_X]};
-  assign interval = interval_q[tile.slot];
 
   // ---- Memory: a place that is read is never the one that is written (asserted below) ------------------------------
   logic [TILE-1:0] rows_write, rows_clear, row_word_q3;
@@ -72,20 +70,16 @@ module quadrille_masked_depth #(
   logic [BOUNDS-1:0] bounds_word, bounds_read;
   logic [TILE*TILE-1:0] mask_read;
 
-  (* no_rw_check *) logic [BOUNDS-1:0] bounds_q[0:(1<<PLACE)-1];
-
-  always_ff @(posedge clk_i) begin
-    if (bounds_write) bounds_q[bounds_place] <= bounds_word;
-    if (rows.load) bounds_read <= bounds_q[place];
-  end
+  quadrille_memory #(.WIDTH(BOUNDS), .DEPTH(1 << PLACE)) u_bounds (
+      .clk_i, .write_i(bounds_write), .write_place_i(bounds_place), .write_data_i(bounds_word), .read_i(rows.load),
+      .read_place_i(place), .clear_i(1'b0), .data_o(bounds_read)
+  );
 
   for (genvar r = 0; r < TILE; r++) begin : gen_mask
-    (* no_rw_check *) logic [TILE-1:0] row_q[0:(1<<PLACE)-1];
-
-    always_ff @(posedge clk_i) begin
-      if (rows_write[r]) row_q[place_q3] <= rows_clear[r] ? '0 : row_word_q3;
-      if (rows.load) mask_read[r*TILE+:TILE] <= row_q[place];
-    end
+    quadrille_memory #(.WIDTH(TILE), .DEPTH(1 << PLACE)) u_row (
+        .clk_i, .write_i(rows_write[r]), .write_place_i(place_q3), .write_data_i(rows_clear[r] ? '0 : row_word_q3),
+        .read_i(rows.load), .read_place_i(place), .clear_i(1'b0), .data_o(mask_read[r*TILE+:TILE])
+    );
   end
 
   // ---- In the context register: what holds, and what the quad makes of it ------------------------------------------
@@ -102,9 +96,13 @@ module quadrille_masked_depth #(
       place_c <= place;
       tag_c <= tag;
       last_row_c <= tile.last_row;
-      {near_c, far_c} <= interval[2*H-1:0];
     end
   end
+
+  quadrille_memory #(.WIDTH(2 * H), .DEPTH(1 << SLOT)) u_interval (
+      .clk_i, .write_i(start_q1), .write_place_i(start_slot_q1), .write_data_i({near_i, far_i}), .read_i(rows.load),
+      .read_place_i(tile.slot), .clear_i(1'b0), .data_o({near_c, far_c})
+  );
 
   assign {bounds_tag, bounds_epoch, bounds_far, bounds_masked} = bounds_read;
   assign known = bounds_tag == tag_c && bounds_epoch == epoch_i;
@@ -240,7 +238,7 @@ module quadrille_masked_depth #(
       rows_lowers_q <= 1'b0;
       way_lowers_q <= '0;
     end else begin
-      context_lowers_q <= rows.load ? interval[2*H] && !tile.end_token : context_lowers_q && !rows.rows_load;
+      context_lowers_q <= rows.load ? lowers_q[tile.slot] && !tile.end_token : context_lowers_q && !rows.rows_load;
       rows_lowers_q <= rows.rows_load ? context_lowers_q : rows_lowers_q && !rows.done;
       way_lowers_q <= {way_lowers_q[1:0], rows.issue && rows_lowers_q};
     end

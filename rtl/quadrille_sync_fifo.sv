@@ -19,7 +19,6 @@ module quadrille_sync_fifo #(
   localparam int POINTER = $clog2(DEPTH);
   localparam int COUNT = $clog2(DEPTH + 1);
 
-  logic [WIDTH-1:0] word_q[0:(1<<POINTER)-1];
   logic [POINTER-1:0] write_q, read_q;
   logic [COUNT-1:0] count_q;  // of words behind the head
   logic valid_q, load;
@@ -41,10 +40,10 @@ module quadrille_sync_fifo #(
     end
   end
 
-  always_ff @(posedge clk_i) begin
-    if (push_i) word_q[write_q] <= data_i;
-    if (load) data_o <= word_q[read_q];
-  end
+  quadrille_memory #(.WIDTH(WIDTH), .DEPTH(1 << POINTER)) u_word (
+      .clk_i, .write_i(push_i), .write_place_i(write_q), .write_data_i(data_i), .read_i(load), .read_place_i(read_q),
+      .clear_i(1'b0), .data_o
+  );
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin

@@ -17,8 +17,7 @@ module quadrille_tile_ring #(
     localparam int TC = quadrille_pkg::TC_BITS, VAL = quadrille_pkg::VAL_BITS, QVAL = quadrille_pkg::QVAL_BITS,
     localparam int QGRAD = quadrille_pkg::QGRAD_BITS, QCURV = quadrille_pkg::QCURV_BITS,
     localparam int SLOT = quadrille_pkg::QUAD_SLOTS_LOG2, RING = quadrille_pkg::RING_LOG2,
-    localparam int TILE_LOG2 = quadrille_pkg::TILE_LOG2, PAIRS = quadrille_pkg::PRODUCT_PAIRS,
-    localparam int BUSES = quadrille_pkg::CONTEXT_BUSES
+    localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS, BUSES = quadrille_pkg::CONTEXT_BUSES
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -51,10 +50,6 @@ module quadrille_tile_ring #(
 );
   `QUADRILLE_IN(`QUADRILLE_TILE_T, tile)
   `QUADRILLE_IN(`QUADRILLE_WORDS_T, words)
-  logic stamp_end, stamp_homogeneous;
-  logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] stamp_slot;
-  logic [quadrille_pkg::TC_BITS-1:0] stamp_tile_x, stamp_tile_y;
-  logic [quadrille_pkg::TILE_LOG2-1:0] stamp_last_row;
   logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] emit_slot;
   logic [quadrille_pkg::TC_BITS-1:0] emit_tile_x, emit_tile_y;
   logic [6*quadrille_pkg::VAL_BITS-1:0] emit_lin_value;
@@ -62,7 +57,6 @@ module quadrille_tile_ring #(
   logic [4*quadrille_pkg::QGRAD_BITS-1:0] emit_quad_gx, emit_quad_gy;
   logic [4*quadrille_pkg::QCURV_BITS-1:0] emit_quad_q;
   localparam int ENTRIES = 1 << RING;
-  assign tag_o = {stamp_end, stamp_homogeneous, stamp_slot, stamp_tile_x, stamp_tile_y, stamp_last_row};
   assign context_o = {emit_slot, emit_tile_x, emit_tile_y, emit_lin_value, emit_quad_value, emit_quad_gx, emit_quad_gy,
       emit_quad_q};
 
@@ -100,59 +94,62 @@ module quadrille_tile_ring #(
     word_index_q <= (emit_part_i == quadrille_pkg::PART_SQUARES) ? tag_index : tag_index + RING'(emit_part_i);
   end
 
-  // {end, homogeneous, slot, x, y}
-  localparam int TAG = 2 + SLOT + 2 * TC;
-  logic [TAG-1:0] tag_q[0:ENTRIES-1];
-  logic [TILE_LOG2-1:0] last_row_q[0:ENTRIES-1];  // coverage's alone
-  logic [TAG-1:0] tag_word, fetch_word;
-  logic [TC-1:0] tag_tile_x_q, tag_tile_y_q;
-  assign tag_word = tag_q[tag_index];
-  assign fetch_word = tag_q[fetch_index];
-  assign fetch_homogeneous_o = fetch_word[TAG-2];
+  // Coverage's tag is {end, homogeneous, slot, x, y, last row}; emission's the slot and place alone.
+  localparam int PLACED = SLOT + 2 * TC, TAG = quadrille_pkg::TAG_BITS;
+  logic [ENTRIES-1:0] homogeneous_q;  // known before the tag is read
+  logic [2*TC-1:0] tag_tile_q;
+  assign fetch_homogeneous_o = homogeneous_q[fetch_index];
 
   always_ff @(posedge clk_i) begin
-    if (push_i) tag_q[write_index] <= {end_i, in_parts, tile.slot, tile.tile_x, tile.tile_y};
-    if (push_i) last_row_q[write_index] <= tile.last_row;
-    if (fetch_i) {stamp_end, stamp_homogeneous, stamp_slot, stamp_tile_x, stamp_tile_y} <= fetch_word;
-    if (fetch_i) stamp_last_row <= last_row_q[fetch_index];
-    {tag_slot_o, tag_tile_x_q, tag_tile_y_q} <= tag_word[TAG-3:0];
-    {emit_slot, emit_tile_x, emit_tile_y} <= {tag_slot_o, tag_tile_x_q, tag_tile_y_q};
+    if (push_i) homogeneous_q[write_index] <= in_parts;
+    {emit_slot, emit_tile_x, emit_tile_y} <= {tag_slot_o, tag_tile_q};
   end
 
-  for (genvar g = 0; g < 6; g++) begin : gen_linear
-    logic [VAL-1:0] value_q[0:ENTRIES-1];
+  quadrille_memory #(.WIDTH(TAG), .DEPTH(ENTRIES)) u_tag (
+      .clk_i, .write_i(push_i), .write_place_i(write_index),
+      .write_data_i({end_i, in_parts, tile.slot, tile.tile_x, tile.tile_y, tile.last_row}), .read_i(fetch_i),
+      .read_place_i(fetch_index), .clear_i(1'b0), .data_o(tag_o)
+  );
 
-    always_ff @(posedge clk_i) begin
-      if (push_i) value_q[write_index] <= tile.lin_value[g*VAL+:VAL];
-      emit_lin_value[g*VAL+:VAL] <= value_q[emit_index_q];
-    end
+  quadrille_memory #(.WIDTH(PLACED), .DEPTH(ENTRIES)) u_emit_tag (
+      .clk_i, .write_i(push_i), .write_place_i(write_index), .write_data_i({tile.slot, tile.tile_x, tile.tile_y}),
+      .read_i(1'b1), .read_place_i(tag_index), .clear_i(1'b0), .data_o({tag_slot_o, tag_tile_q})
+  );
 
-    if (g < 5) begin : gen_stamp
-      always_ff @(posedge clk_i) if (load_i) stamp_lin_value_o[g*VAL+:VAL] <= value_q[load_index];
-    end
-  end
+  quadrille_memory #(.WIDTH(5 * VAL), .DEPTH(ENTRIES)) u_value (
+      .clk_i, .write_i(push_i), .write_place_i(write_index), .write_data_i(tile.lin_value[5*VAL-1:0]), .read_i(load_i),
+      .read_place_i(load_index), .clear_i(1'b0), .data_o(stamp_lin_value_o)
+  );
+
+  quadrille_memory #(.WIDTH(6 * VAL), .DEPTH(ENTRIES)) u_emit_value (
+      .clk_i, .write_i(push_i), .write_place_i(write_index), .write_data_i(tile.lin_value), .read_i(1'b1),
+      .read_place_i(emit_index_q), .clear_i(1'b0), .data_o(emit_lin_value)
+  );
 
   for (genvar g = 0; g < 4; g++) begin : gen_quadratic
-    logic [QVAL-1:0] value_q[0:ENTRIES-1];
-    logic [QGRAD-1:0] gx_q[0:ENTRIES-1];
-    logic [QGRAD-1:0] gy_q[0:ENTRIES-1];
-    logic [QCURV-1:0] curv_q[0:ENTRIES-1];
+    quadrille_memory #(.WIDTH(QVAL), .DEPTH(ENTRIES)) u_value (
+        .clk_i, .write_i(words.value_write[g]), .write_place_i(words.value_entry),
+        .write_data_i(words.value[(g%BUSES)*QVAL+:QVAL]), .read_i(1'b1), .read_place_i(word_index_q), .clear_i(1'b0),
+        .data_o(emit_quad_value[g*QVAL+:QVAL])
+    );
 
-    always_ff @(posedge clk_i) begin
-      if (words.value_write[g]) value_q[words.value_entry] <= words.value[(g%BUSES)*QVAL+:QVAL];
-      if (words.gradient_write[g]) gx_q[words.gradient_entry] <= words.gx[(g%BUSES)*QGRAD+:QGRAD];
-      if (words.gradient_write[g]) gy_q[words.gradient_entry] <= words.gy[(g%BUSES)*QGRAD+:QGRAD];
-      if (words.q_write[g]) curv_q[words.q_entry] <= words.q[(g%PAIRS)*QCURV+:QCURV];
-      emit_quad_value[g*QVAL+:QVAL] <= value_q[word_index_q];
-      emit_quad_gx[g*QGRAD+:QGRAD] <= gx_q[word_index_q];
-      emit_quad_gy[g*QGRAD+:QGRAD] <= gy_q[word_index_q];
-      emit_quad_q[g*QCURV+:QCURV] <= curv_q[word_index_q];
-    end
+    quadrille_memory #(.WIDTH(2 * QGRAD), .DEPTH(ENTRIES)) u_gradient (
+        .clk_i, .write_i(words.gradient_write[g]), .write_place_i(words.gradient_entry),
+        .write_data_i({words.gx[(g%BUSES)*QGRAD+:QGRAD], words.gy[(g%BUSES)*QGRAD+:QGRAD]}), .read_i(1'b1),
+        .read_place_i(word_index_q), .clear_i(1'b0),
+        .data_o({emit_quad_gx[g*QGRAD+:QGRAD], emit_quad_gy[g*QGRAD+:QGRAD]})
+    );
+
+    quadrille_memory #(.WIDTH(QCURV), .DEPTH(ENTRIES)) u_q (
+        .clk_i, .write_i(words.q_write[g]), .write_place_i(words.q_entry),
+        .write_data_i(words.q[(g%PAIRS)*QCURV+:QCURV]), .read_i(1'b1), .read_place_i(word_index_q), .clear_i(1'b0),
+        .data_o(emit_quad_q[g*QCURV+:QCURV])
+    );
   end
 
   // The pointer's upper bit is for the tail alone.
   logic unused;
-  assign unused = ^{fetch_ptr_i[RING], load_ptr_i[RING], emit_ptr_i[RING], tag_word[TAG-1:TAG-2]};
+  assign unused = ^{fetch_ptr_i[RING], load_ptr_i[RING], emit_ptr_i[RING]};
 
 `ifndef SYNTHESIS
   logic value_valid_q;

@@ -66,13 +66,11 @@ module quadrille_vertex_bank #(
   // in one word.
   localparam int WORD = 1 + PE + S, BLEND = (TERMS - 4) * WORD;
   // Block RAM: a slot that a pixel reads is in use, so it is never the one that is written (asserted).
-  (* ram_style = "block", no_rw_check *) logic [BLEND-1:0] blend_q[0:SLOTS-1];
   logic [BLEND-1:0] write_blend, blend_word;
-
-  always_ff @(posedge clk_i) begin
-    if (start_i) blend_q[start_slot_i] <= write_blend;
-    blend_word <= blend_q[reads.blend];
-  end
+  quadrille_memory #(.WIDTH(BLEND), .DEPTH(SLOTS), .BLOCK(1)) u_blend (
+      .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i(write_blend), .read_i(1'b1),
+      .read_place_i(reads.blend), .clear_i(1'b0), .data_o(blend_word)
+  );
 
   for (genvar v = 0; v < 4; v++) begin : gen_vertex
     logic k_neg;
@@ -101,27 +99,20 @@ module quadrille_vertex_bank #(
       end
 
       if (t == 0) begin : gen_k
-        logic [WORD-1:0] bank_q[0:SLOTS-1];
-        logic [WORD-1:0] product_word, override_word;
-
-        always_ff @(posedge clk_i) begin
-          if (start_i) bank_q[start_slot_i] <= {k_neg, k_exp, k_sig};
-          read_word <= bank_q[reads.blend];
-        end
-
-        assign product_word = bank_q[reads.product];
-        assign override_word = bank_q[reads.overrides];
-
-        always_ff @(posedge clk_i) begin
-          product_k_neg[v] <= product_word[WORD-1];
-          product_k_exp[v*PE+:PE] <= product_word[S+:PE];
-          product_k_sig[v*S+:S] <= product_word[0+:S];
-          override_k_exp[v*PE+:PE] <= override_word[S+:PE];
-          override_k_sig[v*S+:S] <= override_word[0+:S];
-        end
-
-        logic unused_neg;
-        assign unused_neg = override_word[WORD-1];  // magnitude only
+        // The overrides need the magnitude only.
+        quadrille_memory #(.WIDTH(WORD), .DEPTH(SLOTS)) u_k (
+            .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i({k_neg, k_exp, k_sig}),
+            .read_i(1'b1), .read_place_i(reads.blend), .clear_i(1'b0), .data_o(read_word)
+        );
+        quadrille_memory #(.WIDTH(WORD), .DEPTH(SLOTS)) u_product_k (
+            .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i({k_neg, k_exp, k_sig}),
+            .read_i(1'b1), .read_place_i(reads.product), .clear_i(1'b0),
+            .data_o({product_k_neg[v], product_k_exp[v*PE+:PE], product_k_sig[v*S+:S]})
+        );
+        quadrille_memory #(.WIDTH(WORD - 1), .DEPTH(SLOTS)) u_override_k (
+            .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i({k_exp, k_sig}), .read_i(1'b1),
+            .read_place_i(reads.overrides), .clear_i(1'b0), .data_o({override_k_exp[v*PE+:PE], override_k_sig[v*S+:S]})
+        );
       end else begin : gen_blend
         localparam int AT = (PLACE - 4) * WORD;
         assign read_word = blend_word[AT+:WORD];
@@ -137,15 +128,14 @@ module quadrille_vertex_bank #(
     end
   end
 
-  // Block RAM as blend_q, and a memory of its own, for it is read later.
+  // Block RAM as u_blend, and a memory of its own, for it is read later.
   localparam int BASE = N * AO + DB + 1 + LIMITS;
-  (* ram_style = "block", no_rw_check *) logic [BASE-1:0] base_q[0:SLOTS-1];
   logic [BASE-1:0] base_word;
-
-  always_ff @(posedge clk_i) begin
-    if (start_i) base_q[start_slot_i] <= {quad.base_attr, quad.base_depth, limits_i};
-    base_word <= base_q[reads.base];
-  end
+  quadrille_memory #(.WIDTH(BASE), .DEPTH(SLOTS), .BLOCK(1)) u_base (
+      .clk_i, .write_i(start_i), .write_place_i(start_slot_i),
+      .write_data_i({quad.base_attr, quad.base_depth, limits_i}), .read_i(1'b1), .read_place_i(reads.base),
+      .clear_i(1'b0), .data_o(base_word)
+  );
 
   logic [LIMITS-1:0] limits_q;
 
@@ -154,11 +144,10 @@ module quadrille_vertex_bank #(
     base_limits <= limits_q;  // used a clock after the bases
   end
 
-  logic [ID-1:0] id_q[0:SLOTS-1];
-
-  always_ff @(posedge clk_i) if (start_i) id_q[start_slot_i] <= quad.id;
-
-  always_ff @(posedge clk_i) output_id <= id_q[reads.outputs];
+  quadrille_memory #(.WIDTH(ID), .DEPTH(SLOTS)) u_id (
+      .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i(quad.id), .read_i(1'b1),
+      .read_place_i(reads.outputs), .clear_i(1'b0), .data_o(output_id)
+  );
 
   if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     logic [SLOTS-1:0] plane_q;
@@ -175,18 +164,19 @@ module quadrille_vertex_bank #(
     assign norm_plane_o = 1'b0;
   end
 
-  (* ram_style = "block", no_rw_check *) logic [6*LENGTH2-1:0] length2_q[0:SLOTS-1];  // as blend_q
   logic [6*LENGTH2-1:0] length2_word;
-  logic [1:0] class_q[0:SLOTS-1];
+  quadrille_memory #(.WIDTH(6 * LENGTH2), .DEPTH(SLOTS), .BLOCK(1)) u_length2 (
+      .clk_i, .write_i(take_i), .write_place_i(setup.slot), .write_data_i(setup.length2), .read_i(1'b1),
+      .read_place_i(reads.length2), .clear_i(1'b0), .data_o(length2_word)
+  );
+
+  logic [SLOTS-1:0] hull_q, homogeneous_q;  // a bit a slot: registers
 
   always_ff @(posedge clk_i) begin
-    if (take_i) begin
-      length2_q[setup.slot] <= setup.length2;
-      class_q[setup.slot] <= {setup.hull, setup.homogeneous};
-    end
-    length2_word <= length2_q[reads.length2];
+    if (take_i) hull_q[setup.slot] <= setup.hull;
+    if (take_i) homogeneous_q[setup.slot] <= setup.homogeneous;
     length2 <= length2_word;
-    blend_hull <= class_q[reads.blend][1];
-    {output_hull, output_homogeneous} <= class_q[reads.outputs];
+    blend_hull <= hull_q[reads.blend];
+    {output_hull, output_homogeneous} <= {hull_q[reads.outputs], homogeneous_q[reads.outputs]};
   end
 endmodule

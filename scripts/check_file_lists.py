@@ -31,8 +31,9 @@ FUSESOC = "fusesoc==2.4.7"
 BENDER = ["bender", "--version", "0.32.1", "--no-default-features", "--locked"]
 # For synthesis, which takes minutes; the tables do not depend on these keys.
 SMALL = {"VIEWPORT_BITS": 10, "ATTRIBUTE_SLOTS": 1, "DEPTH_BITS": 16}
-# Targets of Bender.yml, and the files that they add to those of quadrille.f.
-BENDER_TARGETS = {"axi4_stream": ["axi4_stream/quadrille_axi4_stream.sv"], "bench": ["axi4_stream/axi4_stream_bench.sv"]}
+# Targets of Bender.yml and file sets of the core, and the files that they add to those of quadrille.f.
+WRAP = sorted((f"wrap/{name}" for name in os.listdir(os.path.join(RTL, "wrap")) if name.endswith(".sv")), key=lambda name: (not name.endswith("_pkg.sv"), name))
+FURTHER = {"wrap": [name for name in WRAP if "/quadrille_" in name], "bench": [name for name in WRAP if "/wrap_" in name]}
 
 
 class Checks:
@@ -68,6 +69,8 @@ class Checks:
         self.require([name for name in named if isinstance(name, dict)] == headers, f"rtl/quadrille.core: the include files are not {included}")
         named = [name for name in named if not isinstance(name, dict)]
         self.require(named == self.listed(), f"rtl/quadrille.core: {difference(named, self.listed())}")
+        for name, files in FURTHER.items():
+            self.require(core["filesets"][name]["files"] == files, f"rtl/quadrille.core: file set {name}: {difference(core['filesets'][name]['files'], files)}")
         version = output([self.program, "--version"]).stdout.split()[-1]
         self.require(core["name"].split(":")[-1] == version, f"rtl/quadrille.core: version {core['name'].split(':')[-1]}, the program is {version}")
         keys = json.loads(output([self.program, "config", "--quiet", "--json", "-"]).stdout)["keys"]
@@ -84,7 +87,7 @@ class Checks:
         machine, *further = bender["sources"]
         self.require(machine["include_dirs"] == ["include"], "rtl/Bender.yml: include_dirs is not include")
         self.require(machine["files"] == self.listed(), f"rtl/Bender.yml: {difference(machine['files'], self.listed())}")
-        self.require({group["target"]: group["files"] for group in further} == BENDER_TARGETS, f"rtl/Bender.yml: the further sources are not {BENDER_TARGETS}")
+        self.require({group["target"]: group["files"] for group in further} == FURTHER, f"rtl/Bender.yml: the further sources are not {FURTHER}")
 
     def run_bender(self):
         tool = find_bender()
@@ -98,13 +101,13 @@ class Checks:
                 self.require(done.returncode == 0, f"bender script {' '.join(kind)}: {done.stderr}")
                 return [line for line in done.stdout.splitlines() if line]
 
-            for targets in ([], ["axi4_stream"], ["axi4_stream", "bench"]):
-                expected = self.listed() + sum((BENDER_TARGETS[target] for target in targets), [])
+            for targets in ([], ["wrap"], ["wrap", "bench"]):
+                expected = self.listed() + sum((FURTHER[target] for target in targets), [])
                 found = [os.path.relpath(line, home) for line in script(["flist"], *targets)]
                 self.require(found == expected, f"bender script flist {targets}: {difference(found, expected)}")
             with open(os.path.join(work, "machine.f"), "w", encoding="utf-8") as file:
-                file.write("\n".join(script(["verilator"], "axi4_stream")) + "\n")
-            lint = output(["verilator", "--lint-only", "-Wall", "-f", file.name, "--top-module", "quadrille_axi4_stream"])
+                file.write("\n".join(script(["verilator"], "wrap")) + "\n")
+            lint = output(["verilator", "--lint-only", "-Wall", "-f", file.name, "--top-module", "quadrille_axi4"])
             self.require(lint.returncode == 0 and not lint.stdout, f"verilator with what bender script verilator writes: {lint.stdout}")
         print("Bender: flist is quadrille.f, with the wrapper by its target; Verilator -Wall reads what it writes")
 

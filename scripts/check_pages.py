@@ -24,7 +24,7 @@ LINES = {"README.md": 120, "tb/DECIDE.md": 120, "rtl/INTEGRATE.md": 120, "golden
 COLUMNS, README_LINES, WORDS = 120, 200, 27_000
 APART = (
     "rtl/SPEC.md", "golden/CHANGELOG.md", "golden/explain/README.md", "model/page/README.md",
-    "model/python/README.md", "rtl/configurations/README.md", "tb/verify/cocotb/README.md")
+    "model/python/README.md", "rtl/configurations/README.md", "rtl/wrap/README.md", "tb/verify/cocotb/README.md", "scripts/MATRIX.md")
 INPUT = "--scene bowtie --size 16x16"
 RUNS = f"""config --json @.json|export --out @ --json @.json|scenes --json @.json|scenes --corner --json @.json|scenes --stress --json @.json|cache --json @.json
 explain {INPUT} --pixel 3,2 --json @.json|fragments {INPUT} --out @.csv|fragments {INPUT} --errors --out @.csv --json @.json|render {INPUT} --png @.png --json @.json
@@ -138,7 +138,7 @@ def wanted():
     typed = [p for p in SCRIPTS if p.parent.name == "scripts" and not p.name.startswith("check_")]
     yield "scripts", {path.name for path in typed}, True
     yield "options of scripts", set().union(*map(script_options, typed)), True
-    for module in ("rtl/quadrille.sv", "rtl/axi4_stream/quadrille_axi4_stream.sv"):
+    for module in ("rtl/quadrille.sv", "rtl/wrap/quadrille_axi4_stream.sv"):
         header = re.search(r"^module .*?^\);", (ROOT / module).read_text(encoding="utf-8"), re.M | re.S)[0]
         yield f"ports and parameters of {module}", re.findall(r"(?:input|output|localparam|parameter) .*?(\w+)(?: =.*)?,?$", header, re.M), False
     yield "keys of plans", {*itertools.chain.from_iterable(map(plan_keys, PLANS))}, False

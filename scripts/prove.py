@@ -128,9 +128,10 @@ def solve(options, work, limit):
     status, output = run(["yosys-smtbmc", "-s", "z3", "--unroll", "--noprogress", *options, "machine.smt2"], work, limit)
     if "Status: PASSED" in output and status == 0:
         return True, ""
-    # At the end of the location that Yosys gives stands the assertion.
-    if "Status: FAILED" in output and (found := re.search(r"Assert failed in .*: (\S+?):[\d.]+-(\d+)\.", output)):
-        return False, read(os.path.join(work, found.group(1))).splitlines()[int(found.group(2)) - 1].strip()
+    # Yosys gives a label, or a location at whose end the assertion stands.
+    if "Status: FAILED" in output and (found := re.search(r"Assert failed in .*: (\S+)", output)):
+        place = re.match(r"(\S+?):[\d.]+-(\d+)\.", found.group(1))
+        return False, read(os.path.join(work, place.group(1))).splitlines()[int(place.group(2)) - 1].strip() if place else found.group(1)
     raise Failed("yosys-smtbmc: " + output.strip()[-500:])
 
 

@@ -42,11 +42,10 @@ module quadrille_probed
     entry_q <= u_quadrille.u_tiles.u_ring.complete_q[RING_LOG2-1:0];
   end
 
-  assign {tile.end_token, tile_homogeneous, tile.slot, tile.tile_x, tile.tile_y} = probe_tile_valid_o ? u_quadrille.u_tiles.u_ring.tag_q[entry_q] : '0;
+  assign {tile.end_token, tile_homogeneous, tile.slot, tile.tile_x, tile.tile_y} =
+      probe_tile_valid_o ? u_quadrille.u_tiles.u_ring.u_tag.word_q[entry_q][TAG_BITS-1:TILE_LOG2] : '0;
 
-  for (genvar g = 0; g < 6; g++) begin : gen_linear
-    assign tile.lin_value[g*VAL_BITS+:VAL_BITS] = probe_tile_valid_o ? u_quadrille.u_tiles.u_ring.gen_linear[g].value_q[entry_q] : '0;
-  end
+  assign tile.lin_value = probe_tile_valid_o ? u_quadrille.u_tiles.u_ring.u_emit_value.word_q[entry_q] : '0;
 
   for (genvar g = 0; g < 10; g++) begin : gen_quadratic
     localparam int LANE = (g < 6) ? g % 4 : g - 6;
@@ -55,10 +54,10 @@ module quadrille_probed
     logic [RING_LOG2-1:0] entry;
     assign there = probe_tile_valid_o && (g >= 6 || tile_homogeneous);
     assign entry = entry_q + RING_LOG2'(PART);
-    assign tile.quad_value[g*QVAL_BITS+:QVAL_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].value_q[entry] : '0;
-    assign tile.quad_gx[g*QGRAD_BITS+:QGRAD_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].gx_q[entry] : '0;
-    assign tile.quad_gy[g*QGRAD_BITS+:QGRAD_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].gy_q[entry] : '0;
-    assign tile.quad_q[g*QCURV_BITS+:QCURV_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].curv_q[entry] : '0;
+    assign tile.quad_value[g*QVAL_BITS+:QVAL_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].u_value.word_q[entry] : '0;
+    assign {tile.quad_gx[g*QGRAD_BITS+:QGRAD_BITS], tile.quad_gy[g*QGRAD_BITS+:QGRAD_BITS]} =
+        there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].u_gradient.word_q[entry] : '0;
+    assign tile.quad_q[g*QCURV_BITS+:QCURV_BITS] = there ? u_quadrille.u_tiles.u_ring.gen_quadratic[LANE].u_q.word_q[entry] : '0;
   end
 
   assign probe_tile_o = tile.end_token ? '{end_token: 1'b1, slot: tile.slot, default: '0} : tile;

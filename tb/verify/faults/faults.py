@@ -3,6 +3,7 @@
 
     tb/verify/faults/faults.py replays COUNT       so many that replayed vectors catch, drawn by $QUADRILLE_TEST_SEED (0: all),
                                              a line each: name, suite, set and simulator
+    tb/verify/faults/faults.py wrap                name and number of each fault of rtl/wrap, a line each
     tb/verify/faults/faults.py put NAME RTL        puts a fault into a copy of rtl/
     tb/verify/faults/faults.py replayed NAME "SUITE SET SIMULATOR"      adds such a line to the record
 
@@ -83,8 +84,13 @@ class Fault:
 
     @property
     def selectable(self):
-        """Built into the copies of select_mutants.py. What proofs or replays alone catch is not."""
-        return self.generated or bool(self.equivalent) or "checks" in self.caught or not self.caught
+        """Built into the copies of select_mutants.py. What proofs or replays alone catch is not, nor a fault of rtl/wrap."""
+        return not self.of_wrapper and (self.generated or bool(self.equivalent) or "checks" in self.caught or not self.caught)
+
+    @property
+    def of_wrapper(self):
+        """Caught by rtl/wrap/run.sh, which builds all of these into a copy of that folder."""
+        return self.of("rtl/wrap")
 
     def of(self, side):
         """Whether it has an edit of rtl/ or model/."""
@@ -135,6 +141,8 @@ def main():
         case ["replays", count]:
             lines = [f"{name} {replay}" for name, fault in faults.items() for replay in fault.caught.get("replays", ())]
             print("\n".join(pick(lines, int(count))))
+        case ["wrap"]:
+            print("\n".join(f"{name} {fault.number}" for name, fault in faults.items() if fault.of_wrapper))
         case ["put", name, folder]:
             put(faults[name], folder)
         case ["replayed", name, replay]:

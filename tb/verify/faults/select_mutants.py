@@ -2,6 +2,7 @@
 """Copies rtl/ and model/ with every fault that is selectable (faults.py) built in, each off until it is selected at run time.
 
     tb/verify/faults/select_mutants.py OUTPUT_DIR     rtl/*.sv; tree/model/, to put before the sources' include path; faults.json, the list of those built in
+    tb/verify/faults/select_mutants.py OUTPUT_DIR wrap        rtl/wrap/*.sv alone, with the faults of that folder
 
 The text that an edit replaces becomes what the selected fault says:
 
@@ -26,7 +27,7 @@ sys.dont_write_bytecode = True
 from faults import ROOT, registry  # noqa: E402
 
 LIBRARIES = {"support", "c_api", "examples"}  # folders of model/ without the machine
-SUFFIXES = {"rtl": {".sv"}, "model": {".cpp", ".hpp"}}
+SUFFIXES = {"rtl": {".sv"}, "rtl/wrap": {".sv"}, "model": {".cpp", ".hpp"}}
 ASSIGN = re.compile(r"assign\s+([^=]+?)\s*=\s*(.*);", re.DOTALL)
 
 RTL_PACKAGE = """// The number of the fault that is selected, 0: none. Made by tb/verify/faults/select_mutants.py; not synthesizable.
@@ -80,14 +81,14 @@ def place_of(fault, edit, text):
 
 def selectable(text, place, side):
     """The text of a place with all its faults, and those of the places within it."""
-    selected = "quadrille_mutant_pkg::selected" if side == "rtl" else "::quadrille::selected_mutant"
+    selected = "quadrille_mutant_pkg::selected" if side != "model" else "::quadrille::selected_mutant"
     new = text[place.start:place.end]
     for inner in sorted(place.inner, key=lambda p: p.start, reverse=True):
         new = new[:inner.start - place.start] + selectable(text, inner, side) + new[inner.end - place.start:]
     for n, replace in place.faults:
         if not place.statement:
             new = f"(({selected} == {n}) ? ({replace}) : ({new}))"
-        elif side == "rtl":
+        elif side != "model":
             new = f"if ({selected} == {n}) begin {replace} end else begin {new} end"
         else:
             new = f"if ({selected} == {n}) {{ {replace} }} else {{ {new} }}"
@@ -138,6 +139,11 @@ def write(path, text):
 
 def main():
     out = pathlib.Path(sys.argv[1])
+    if sys.argv[2:] == ["wrap"]:
+        found, wrong = copies("rtl/wrap", [fault for fault in registry().values() if fault.of_wrapper])
+        for file, text in (found | {"rtl/quadrille_mutant_pkg.sv": RTL_PACKAGE}).items():
+            write(out / file, text)
+        sys.exit("\n".join(wrong) or 0)
     faults = [fault for fault in registry().values() if fault.selectable]
     written = {out / "rtl/quadrille_mutant_pkg.sv": RTL_PACKAGE, out / "tree/model/selected_mutant.hpp": MODEL_HEADER}
     for side, folder in (("rtl", out), ("model", out / "tree")):

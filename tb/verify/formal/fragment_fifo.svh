@@ -40,15 +40,15 @@
   end
 
   logic [DEPTH_LOG2-1:0] place, write;
-  logic [LANES-1:0] place_mask;
+  localparam int WORD = LANES + WIDTH;
+  (* hierconn *) logic [DEPTH*WORD-1:0] \u_word.words ;
+  logic [DEPTH*WORD-1:0] words;
+  logic [WORD-1:0] there;
 
   assign write = read_q + DEPTH_LOG2'(count_q);
   assign place = read_q + DEPTH_LOG2'(ahead_q) - DEPTH_LOG2'(valid_o);
-  if (LANES == 1) begin : gen_place_one
-    assign place_mask = 1'b1;
-  end else begin : gen_place
-    assign place_mask = gen_lanes.mask_q[place];
-  end
+  assign words = \u_word.words ;
+  assign there = words[place*WORD+:WORD];
 
   always_comb begin
     if (rst_ni) begin
@@ -64,15 +64,15 @@
       assert (some_q == (count_q != '0));
       assert (!waited_q || used_q != '0);
       assert (!in_q || tagged_q[WIDTH+:LANES] != '0);
-      assert (!in_q || (valid_o && ahead_q == '0) || {place_mask, word_q[place]} == tagged_q);
+      assert (!in_q || (valid_o && ahead_q == '0) || there == tagged_q);
     end
   end
 
   // Invariant of the memory: some lane of each word has a fragment.
-  if (LANES != 1) begin : gen_masks
-    for (genvar i = 0; i < DEPTH; i++) begin : gen_word
-      logic [DEPTH_LOG2-1:0] behind;
-      assign behind = DEPTH_LOG2'(i) - read_q;
-      always_comb if (rst_ni) assert ({1'b0, behind} >= count_q || gen_lanes.mask_q[i] != '0);
-    end
+  for (genvar i = 0; i < DEPTH; i++) begin : gen_masks
+    logic [DEPTH_LOG2-1:0] behind;
+    logic [LANES-1:0] lanes;
+    assign behind = DEPTH_LOG2'(i) - read_q;
+    assign lanes = words[i*WORD+WIDTH+:LANES];
+    always_comb if (rst_ni) assert ({1'b0, behind} >= count_q || lanes != '0);
   end

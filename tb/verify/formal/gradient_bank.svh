@@ -6,23 +6,27 @@
   (* anyseq *) logic choose;
   logic live_q, tag, emit_q1, stamp_q1;
   logic [SLOT-1:0] slot_q;
-  logic [6*GRAD-1:0] gx_tag_q, gy_tag_q, gx_there, gy_there;
-  logic [13:0] stamp_tag_q;
+  localparam int EDGES = quadrille_pkg::EDGES_BITS;
+  (* hierconn *) logic [SLOTS*EDGES-1:0] \u_edges.words ;
+  (* hierconn *) logic [SLOTS*12*GRAD-1:0] \u_gradients.words ;
+  logic [SLOTS*EDGES-1:0] edges_words;
+  logic [SLOTS*12*GRAD-1:0] gradients_words;
+  logic [EDGES-1:0] edges_tag_q, edges_there;
+  logic [12*GRAD-1:0] gradients_tag_q, gradients_there;  // {gx, gy}
 
   assign tag = choose && take_i;
 
-  for (genvar g = 0; g < 6; g++) begin : gen_there
-    assign gx_there[g*GRAD+:GRAD] = gen_linear[g].gx_q[slot_q];
-    assign gy_there[g*GRAD+:GRAD] = gen_linear[g].gy_q[slot_q];
-  end
+  assign edges_words = \u_edges.words ;
+  assign gradients_words = \u_gradients.words ;
+  assign edges_there = edges_words[slot_q*EDGES+:EDGES];
+  assign gradients_there = gradients_words[slot_q*12*GRAD+:12*GRAD];
 
   always_ff @(posedge clk_i) begin
     if (tag) begin
       live_q <= 1'b1;
       slot_q <= setup.slot;
-      gx_tag_q <= setup.lin_gx;
-      gy_tag_q <= setup.lin_gy;
-      stamp_tag_q <= {setup.tie_pos, setup.tie_neg, setup.visible};
+      gradients_tag_q <= {setup.lin_gx, setup.lin_gy};
+      edges_tag_q <= {setup.lin_gx[5*GRAD-1:0], setup.lin_gy[5*GRAD-1:0], setup.tie_pos, setup.tie_neg, setup.visible};
     end else if (first_q || (take_i && setup.slot == slot_q)) begin
       live_q <= 1'b0;
     end
@@ -33,10 +37,9 @@
 
   always_comb begin
     if (!first_q) begin
-      assert (!emit_q1 || {emit_gx_o, emit_gy_o} == {gx_tag_q, gy_tag_q});
-      assert (!stamp_q1 || {stamp_gx, stamp_gy} == {gx_tag_q[5*GRAD-1:0], gy_tag_q[5*GRAD-1:0]});
-      assert (!stamp_q1 || {stamp_tie_pos, stamp_tie_neg, stamp_visible} == stamp_tag_q);
+      assert (!emit_q1 || {emit_gx_o, emit_gy_o} == gradients_tag_q);
+      assert (!stamp_q1 || edges_o == edges_tag_q);
       // Invariants
-      assert (!live_q || (gx_there == gx_tag_q && gy_there == gy_tag_q && stamp_q[slot_q] == stamp_tag_q));
+      assert (!live_q || (gradients_there == gradients_tag_q && edges_there == edges_tag_q));
     end
   end

@@ -11,10 +11,15 @@
   logic [WIDTH-1:0] tagged_q;
   logic tag;
   logic [POINTER-1:0] place, write;
+  (* hierconn *) logic [(1<<POINTER)*WIDTH-1:0] \u_word.words ;
+  logic [(1<<POINTER)*WIDTH-1:0] words;
+  logic [WIDTH-1:0] there;
 
   // Of the tagged word, if it is not the head; of the next that is pushed.
   assign place = read_q + POINTER'(ahead_q) - POINTER'(valid_q);
   assign write = read_q + POINTER'(count_q);
+  assign words = \u_word.words ;
+  assign there = words[place*WIDTH+:WIDTH];
   assign tag = choose && push_i && !seen_q;
 
   always_ff @(posedge clk_i) begin
@@ -50,6 +55,6 @@
       assert (used_q == count_q + COUNT'(valid_q) && used_q <= COUNT'(DEPTH));
       assert (write_q == write);
       assert (!waited_q || used_q != '0);
-      assert (!in_q || (valid_q && ahead_q == '0) || word_q[place] == tagged_q);
+      assert (!in_q || (valid_q && ahead_q == '0) || there == tagged_q);
     end
   end

@@ -42,13 +42,14 @@
     end
   end
 
+  localparam int ROW = quadrille_pkg::TILE_LOG2;  // bits of a tag below its place
+
   // ---- The tagged entry ----------------------------------------------------------------------------------------------------------------
   (* anyseq *) logic choose;
   (* anyconst *) logic [1:0] part, which;
   logic seen_q, live_q, fetched_q, loaded_q, emit_q1, emit_q2, word_q1, word_q2, tag;
   logic [RING:0] ptr_q;
   logic [TAG-1:0] tag_kept_q;
-  logic [TILE_LOG2-1:0] last_row_kept_q;
   logic [6*VAL-1:0] value_kept_q, value_there;
   logic [RING-1:0] place, word_place;  // of the entry, and of the word of the part
   logic [RING:0] size, from_given, given_step, to_ptr, behind, past_complete;
@@ -81,8 +82,7 @@
         seen_q <= 1'b1;
         live_q <= 1'b1;
         ptr_q <= pushed_q;
-        tag_kept_q <= {end_i, parts_come, tile.slot, tile.tile_x, tile.tile_y};
-        last_row_kept_q <= tile.last_row;
+        tag_kept_q <= {end_i, parts_come, tile.slot, tile.tile_x, tile.tile_y, tile.last_row};
         value_kept_q <= tile.lin_value;
       end else if (live_q && given_step > from_given) begin
         live_q <= 1'b0;
@@ -96,9 +96,53 @@
     end
   end
 
-  for (genvar g = 0; g < 6; g++) begin : gen_there
-    assign value_there[g*VAL+:VAL] = gen_linear[g].value_q[place];
-  end
+  (* hierconn *) logic [ENTRIES*TAG-1:0] \u_tag.words ;
+  (* hierconn *) logic [ENTRIES*PLACED-1:0] \u_emit_tag.words ;
+  (* hierconn *) logic [ENTRIES*5*VAL-1:0] \u_value.words ;
+  (* hierconn *) logic [ENTRIES*6*VAL-1:0] \u_emit_value.words ;
+  (* hierconn *) logic [ENTRIES*QVAL-1:0] \gen_quadratic[0].u_value.words ;
+  (* hierconn *) logic [ENTRIES*QVAL-1:0] \gen_quadratic[1].u_value.words ;
+  (* hierconn *) logic [ENTRIES*QVAL-1:0] \gen_quadratic[2].u_value.words ;
+  (* hierconn *) logic [ENTRIES*QVAL-1:0] \gen_quadratic[3].u_value.words ;
+  (* hierconn *) logic [ENTRIES*2*QGRAD-1:0] \gen_quadratic[0].u_gradient.words ;
+  (* hierconn *) logic [ENTRIES*2*QGRAD-1:0] \gen_quadratic[1].u_gradient.words ;
+  (* hierconn *) logic [ENTRIES*2*QGRAD-1:0] \gen_quadratic[2].u_gradient.words ;
+  (* hierconn *) logic [ENTRIES*2*QGRAD-1:0] \gen_quadratic[3].u_gradient.words ;
+  (* hierconn *) logic [ENTRIES*QCURV-1:0] \gen_quadratic[0].u_q.words ;
+  (* hierconn *) logic [ENTRIES*QCURV-1:0] \gen_quadratic[1].u_q.words ;
+  (* hierconn *) logic [ENTRIES*QCURV-1:0] \gen_quadratic[2].u_q.words ;
+  (* hierconn *) logic [ENTRIES*QCURV-1:0] \gen_quadratic[3].u_q.words ;
+  logic [ENTRIES*TAG-1:0] tag_words;
+  logic [ENTRIES*PLACED-1:0] emit_tag_words;
+  logic [ENTRIES*5*VAL-1:0] value_words;
+  logic [ENTRIES*6*VAL-1:0] emit_value_words;
+  logic [4*ENTRIES*QVAL-1:0] quad_value_words;
+  logic [4*ENTRIES*2*QGRAD-1:0] quad_gradient_words;
+  logic [4*ENTRIES*QCURV-1:0] quad_q_words;
+  logic [TAG-1:0] tag_there;
+  logic [PLACED-1:0] emit_tag_there;
+  logic [5*VAL-1:0] stamp_value_there;
+
+  assign tag_words = \u_tag.words ;
+  assign emit_tag_words = \u_emit_tag.words ;
+  assign value_words = \u_value.words ;
+  assign emit_value_words = \u_emit_value.words ;
+  assign quad_value_words = {\gen_quadratic[3].u_value.words ,
+      \gen_quadratic[2].u_value.words ,
+      \gen_quadratic[1].u_value.words ,
+      \gen_quadratic[0].u_value.words };
+  assign quad_gradient_words = {\gen_quadratic[3].u_gradient.words ,
+      \gen_quadratic[2].u_gradient.words ,
+      \gen_quadratic[1].u_gradient.words ,
+      \gen_quadratic[0].u_gradient.words };
+  assign quad_q_words = {\gen_quadratic[3].u_q.words ,
+      \gen_quadratic[2].u_q.words ,
+      \gen_quadratic[1].u_q.words ,
+      \gen_quadratic[0].u_q.words };
+  assign tag_there = tag_words[place*TAG+:TAG];
+  assign emit_tag_there = emit_tag_words[place*PLACED+:PLACED];
+  assign stamp_value_there = value_words[place*5*VAL+:5*VAL];
+  assign value_there = emit_value_words[place*6*VAL+:6*VAL];
 
   // Its words: what was written last of each function
   logic [RING:0] value_at, gradient_at, q_at;  // entries written, from the first that is not complete
@@ -117,9 +161,9 @@
   logic [4*QCURV-1:0] qs_stored;
 
   for (genvar g = 0; g < 4; g++) begin : gen_stored
-    assign values_stored[g*QVAL+:QVAL] = gen_quadratic[g].value_q[word_place];
-    assign gradients_stored[g*2*QGRAD+:2*QGRAD] = {gen_quadratic[g].gx_q[word_place], gen_quadratic[g].gy_q[word_place]};
-    assign qs_stored[g*QCURV+:QCURV] = gen_quadratic[g].curv_q[word_place];
+    assign values_stored[g*QVAL+:QVAL] = quad_value_words[(g*ENTRIES+word_place)*QVAL+:QVAL];
+    assign gradients_stored[g*2*QGRAD+:2*QGRAD] = quad_gradient_words[(g*ENTRIES+word_place)*2*QGRAD+:2*QGRAD];
+    assign qs_stored[g*QCURV+:QCURV] = quad_q_words[(g*ENTRIES+word_place)*QCURV+:QCURV];
   end
 
   always_comb begin
@@ -180,11 +224,10 @@
       assert (entry_o == pushed_q[RING-1:0]);
       assert (full_o == (occupied + push_size > (RING + 1)'(ENTRIES)));
       assert (!live_q || fetch_ptr_i != ptr_q || fetch_homogeneous_o == tag_kept_q[TAG-2]);
-      assert (!fetched_q || {stamp_end, stamp_homogeneous, stamp_slot, stamp_tile_x, stamp_tile_y} == tag_kept_q);
-      assert (!fetched_q || stamp_last_row == last_row_kept_q);
+      assert (!fetched_q || tag_o == tag_kept_q);
       assert (!loaded_q || stamp_lin_value_o == value_kept_q[5*VAL-1:0]);
-      assert (!emit_q1 || tag_slot_o == tag_kept_q[2*TC+:SLOT]);
-      assert (!emit_q2 || {emit_slot, emit_tile_x, emit_tile_y} == tag_kept_q[TAG-3:0]);
+      assert (!emit_q1 || tag_slot_o == tag_kept_q[ROW+2*TC+:SLOT]);
+      assert (!emit_q2 || {emit_slot, emit_tile_x, emit_tile_y} == tag_kept_q[ROW+:PLACED]);
       assert (!emit_q2 || emit_lin_value == value_kept_q);
       // The registers are what the ports say.
       assert (write_q == pushed_q && complete_q == completed_q && tail_q == given_q);
@@ -192,9 +235,10 @@
       assert (occupied <= (RING + 1)'(ENTRIES) && complete_in_use <= occupied);
       assert (!live_q || (behind >= size && from_given < occupied && (!complete || past_complete >= size)));
       assert (seen_q || !(live_q || fetched_q || loaded_q || emit_q1 || emit_q2 || word_q1 || word_q2));
-      assert (!live_q || (tag_q[place] == tag_kept_q && last_row_q[place] == last_row_kept_q));
+      assert (!live_q || (tag_there == tag_kept_q && homogeneous_q[place] == tag_kept_q[TAG-2]));
+      assert (!live_q || (emit_tag_there == tag_kept_q[ROW+:PLACED] && stamp_value_there == value_kept_q[5*VAL-1:0]));
       assert (!(live_q || emit_q1) || value_there == value_kept_q);
-      assert (!emit_q1 || (emit_index_q == place && {tag_tile_x_q, tag_tile_y_q} == tag_kept_q[2*TC-1:0]));
+      assert (!emit_q1 || (emit_index_q == place && tag_tile_q == tag_kept_q[ROW+:2*TC]));
       assert (!word_q1 || word_index_q == word_place);
     end
   end

@@ -23,13 +23,64 @@
   logic [SETS-1:0] active_q1;
   logic [quadrille_pkg::STATE_BITS-1:0] state_q;
 
+  (* hierconn *) logic [SLOTS*ID-1:0] \u_id.words ;
+  (* hierconn *) logic [SLOTS*BLEND-1:0] \u_blend.words ;
+  (* hierconn *) logic [SLOTS*BASE-1:0] \u_base.words ;
+  (* hierconn *) logic [SLOTS*6*LENGTH2-1:0] \u_length2.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[0].gen_term[0].gen_k.u_k.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[1].gen_term[0].gen_k.u_k.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[2].gen_term[0].gen_k.u_k.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[3].gen_term[0].gen_k.u_k.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[0].gen_term[0].gen_k.u_product_k.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[1].gen_term[0].gen_k.u_product_k.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[2].gen_term[0].gen_k.u_product_k.words ;
+  (* hierconn *) logic [SLOTS*WORD-1:0] \gen_vertex[3].gen_term[0].gen_k.u_product_k.words ;
+  (* hierconn *) logic [SLOTS*(WORD-1)-1:0] \gen_vertex[0].gen_term[0].gen_k.u_override_k.words ;
+  (* hierconn *) logic [SLOTS*(WORD-1)-1:0] \gen_vertex[1].gen_term[0].gen_k.u_override_k.words ;
+  (* hierconn *) logic [SLOTS*(WORD-1)-1:0] \gen_vertex[2].gen_term[0].gen_k.u_override_k.words ;
+  (* hierconn *) logic [SLOTS*(WORD-1)-1:0] \gen_vertex[3].gen_term[0].gen_k.u_override_k.words ;
+  // What the slot has of each, and of the four memories of k for each read
+  logic [SLOTS*ID-1:0] id_words;
+  logic [SLOTS*BLEND-1:0] blend_words;
+  logic [SLOTS*BASE-1:0] base_words;
+  logic [SLOTS*6*LENGTH2-1:0] length2_words;
+  logic [4*SLOTS*WORD-1:0] k_words, product_words;
+  logic [4*SLOTS*(WORD-1)-1:0] override_words;
+  logic [ID-1:0] id_there;
+  logic [BLEND-1:0] blend_there;
+  logic [BASE-1:0] base_there;
+  logic [6*LENGTH2-1:0] length2_there;
+  logic [4*WORD-1:0] product_there, override_there;
+
+  assign id_words = \u_id.words ;
+  assign blend_words = \u_blend.words ;
+  assign base_words = \u_base.words ;
+  assign length2_words = \u_length2.words ;
+  assign id_there = id_words[slot_q*ID+:ID];
+  assign blend_there = blend_words[slot_q*BLEND+:BLEND];
+  assign base_there = base_words[slot_q*BASE+:BASE];
+  assign length2_there = length2_words[slot_q*6*LENGTH2+:6*LENGTH2];
+  assign k_words = {\gen_vertex[3].gen_term[0].gen_k.u_k.words ,
+      \gen_vertex[2].gen_term[0].gen_k.u_k.words ,
+      \gen_vertex[1].gen_term[0].gen_k.u_k.words ,
+      \gen_vertex[0].gen_term[0].gen_k.u_k.words };
+  assign product_words = {\gen_vertex[3].gen_term[0].gen_k.u_product_k.words ,
+      \gen_vertex[2].gen_term[0].gen_k.u_product_k.words ,
+      \gen_vertex[1].gen_term[0].gen_k.u_product_k.words ,
+      \gen_vertex[0].gen_term[0].gen_k.u_product_k.words };
+  assign override_words = {\gen_vertex[3].gen_term[0].gen_k.u_override_k.words ,
+      \gen_vertex[2].gen_term[0].gen_k.u_override_k.words ,
+      \gen_vertex[1].gen_term[0].gen_k.u_override_k.words ,
+      \gen_vertex[0].gen_term[0].gen_k.u_override_k.words };
   assign tag = choose && start_i;
   assign take_tag = take_i && live_q && !taken_q && setup.slot == slot_q;
 
   for (genvar v = 0; v < 4; v++) begin : gen_tag
     assign k_tag[v*WORD+:WORD] = state.perspective ? {1'b0, quad.k_exp[v*PE+:PE], quad.k_sig[v*S+:S]} :
         {quad.w_neg[v], quad.w_exp[v*PE+:PE], quad.w_sig[v*S+:S]};
-    assign k_there[v*WORD+:WORD] = gen_vertex[v].gen_term[0].gen_k.bank_q[slot_q];
+    assign k_there[v*WORD+:WORD] = k_words[(v*SLOTS+slot_q)*WORD+:WORD];
+    assign product_there[v*WORD+:WORD] = product_words[(v*SLOTS+slot_q)*WORD+:WORD];
+    assign override_there[v*WORD+:WORD] = {1'b0, override_words[(v*SLOTS+slot_q)*(WORD-1)+:WORD-1]};
   end
 
   // Of term set t from 1 on: W and Z of four vertices, each b of the last three
@@ -113,9 +164,11 @@
       assert (!length2_q2 || length2 == length2_tag_q);
       // Invariants
       assert (live_q || !taken_q);
-      assert (!live_q || (id_q[slot_q] == id_tag_q && k_there == k_tag_q && gen_plane.plane_q[slot_q] == plane_tag_q));
-      assert (!live_q || (blend_q[slot_q] == vertex_tag_q && base_q[slot_q] == base_tag_q));
-      assert (!taken_q || (class_q[slot_q] == class_tag_q && length2_q[slot_q] == length2_tag_q));
+      assert (!live_q || (id_there == id_tag_q && k_there == k_tag_q && gen_plane.plane_q[slot_q] == plane_tag_q));
+      assert (!live_q || (product_there == k_tag_q && override_there == k_magnitude));
+      assert (!live_q || (blend_there == vertex_tag_q && base_there == base_tag_q));
+      assert (!taken_q || {hull_q[slot_q], homogeneous_q[slot_q]} == class_tag_q);
+      assert (!taken_q || length2_there == length2_tag_q);
       assert (!base_q1 || base_word == base_tag_q);
       assert (!base_q2 || limits_q == base_tag_q[LIMITS-1:0]);
       assert (!length2_q1 || length2_word == length2_tag_q);
