@@ -41,7 +41,9 @@ class Sweep:
     configuration or None. one_key: for each axis the points that differ from the base in this key alone, the base among them.
     """
 
-    def __init__(self, directory):
+    def __init__(self, directory, page):
+        self.page = page
+
         def path(name):
             return os.path.join(directory, name)
 
@@ -137,3 +139,13 @@ class Sweep:
             changed = [key for key in self.axes if i in self.one_key[key] and i != self.base]
             return [f"{key} = {self.value[key][i]:g}" for key in changed] or ["base configuration"]
         return [f"{key} = {self.value[key][i]:g}" for key in self.axes]
+
+    def address(self):
+        """Of the page, with the scene and every key of the configuration that is not automatic."""
+        scene = re.search(r" --scene (\w+)", self.manifest["command"])
+        words = [f"preset={scene[1]}"] if scene else []
+        return f"{self.page}#{'&'.join(words + [f'{key}={value}' for key, value in self.manifest['config'].items() if value != -1])}"
+
+    def address_keys(self, i):
+        """Those of a point: what follows replaces what came before."""
+        return "".join(f"&{key}={self.value[key][i]:g}" for key in self.axes)
