@@ -118,12 +118,12 @@ class Report(unittest.TestCase):
             keys = [key for key, value in manifest["config"].items() if value != -1 or key in {axis["key"] for axis in manifest["axes"]}]
             html, _ = page(name)
             details = json.loads(re.search("<script type='application/json' id='points'>(.*?)</script>", html, re.S)[1])
-            links = re.findall(r"<a href='page/index\.html#([^']*)'>(\d+)</a>", html) + [(f"{details['page']}{more}".removeprefix("page/index.html#"), str(row))
-                                                                                        for row, more in zip(details["row"], details["keys"])]
+            links = [(unescape(link), row) for link, row in re.findall(r"<a href='([^'#]*#[^']*)'>(\d+)</a>", html)]
+            links += [(details["page"] + more, str(row)) for row, more in zip(details["row"], details["keys"])]
             self.assertGreater(len(links), len(manifest["front"]))
             for link, row in links:
-                state = dict(urllib.parse.parse_qsl(unescape(link), strict_parsing=True))
-                self.assertEqual(state.pop("preset"), "sphere")
+                state = dict(urllib.parse.parse_qsl(link.removeprefix("page/index.html#"), strict_parsing=True))
+                self.assertEqual((state.pop("preset"), state.pop("size")), ("sphere", "96x64"))
                 self.assertEqual(state, {key: points[int(row)][key] for key in keys})
         self.assertEqual(call(WORK / "full", "--page", "https://a.example/page/#x", "--out", WORK / "elsewhere")[0], 2)
         self.assertEqual(call(WORK / "full", "--page", "https://a.example/<page>/", "--out", WORK / "elsewhere"), (0, ""))

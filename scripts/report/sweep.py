@@ -141,10 +141,12 @@ class Sweep:
         return [f"{key} = {self.value[key][i]:g}" for key in self.axes]
 
     def address(self):
-        """Of the page, with the scene and every key of the configuration that is not automatic."""
-        scene = re.search(r" --scene (\w+)", self.manifest["command"])
-        words = [f"preset={scene[1]}"] if scene else []
-        return f"{self.page}#{'&'.join(words + [f'{key}={value}' for key, value in self.manifest['config'].items() if value != -1])}"
+        """Of the page, with the scene, if it is one, and every key of the configuration that is not automatic."""
+        scene, other = self.manifest["input"], re.search(r" --(mesh|quads|stress|corner)\b", self.manifest["command"])
+        words = {} if other or not re.fullmatch(r"\w+", scene) else {"preset": scene}
+        words |= {"size": self.manifest["size"]} if max(self.size) <= 1024 else {}  # the page's limit
+        words |= {key: value for key, value in self.manifest["config"].items() if value != -1}
+        return f"{self.page}#{'&'.join(f'{key}={value}' for key, value in words.items())}"
 
     def address_keys(self, i):
         """Those of a point: what follows replaces what came before."""

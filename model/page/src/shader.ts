@@ -55,13 +55,14 @@ function program_of(gl: WebGL2RenderingContext, form: string): WebGLProgram {
  * `quads`: of each x, y, w, k, z of its corners. Returns of each pixel, row by row from the top, four weights, then of
  * each the quad + 1 (0: none), window z, the sum of the formulas' weights (negative: a front) and 0.
  */
-export function shader_pixels(form: string, quads: Float32Array, state: ShaderState): Float32Array {
+export async function shader_pixels(form: string, quads: Float32Array, state: ShaderState): Promise<Float32Array> {
   const gl = open();
   const { width, height } = state;
   const largest = gl.getParameter(gl.MAX_RENDERBUFFER_SIZE) as number;
   if (Math.max(width, height) > largest) throw new Error(`WebGL2 draws at most ${largest} pixels a side here`);
   const program = program_of(gl, form);
-  const frame = gl.createFramebuffer(), buffer = gl.createBuffer(), array = gl.createVertexArray();
+  const frame = gl.createFramebuffer(), array = gl.createVertexArray();
+  const buffer = gl.createBuffer(), read = gl.createBuffer();
   const targets = [gl.RGBA32F, gl.RGBA32F, gl.DEPTH_COMPONENT32F].map((format, i) => {
     const target = gl.createRenderbuffer();
     gl.bindRenderbuffer(gl.RENDERBUFFER, target);
@@ -97,16 +98,24 @@ export function shader_pixels(form: string, quads: Float32Array, state: ShaderSt
     gl.uniform1i(place("perspective"), Number(state.perspective));
     gl.uniform1i(place("depth"), Number(state.depth));
     gl.drawArraysInstanced(gl.TRIANGLES, 0, 6, quads.length / (4 * corner_vectors.length));
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, read);
+    gl.bufferData(gl.PIXEL_PACK_BUFFER, out.byteLength, gl.STREAM_READ);
     for (const i of [0, 1]) {
       gl.readBuffer(gl.COLOR_ATTACHMENT0 + i);
-      gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, out.subarray(4 * width * height * i, 4 * width * height * (i + 1)));
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, (i * out.byteLength) / 2);
     }
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0)!;
+    gl.flush();
+    while (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) await new Promise((done) => setTimeout(done, 1));
+    gl.deleteSync(fence);
+    gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, out);
     const error = gl.getError();
     if (error !== gl.NO_ERROR) throw new Error(`WebGL2: error ${error}`);
   } finally {
     targets.forEach((target) => gl.deleteRenderbuffer(target));
     gl.deleteFramebuffer(frame);
     gl.deleteBuffer(buffer);
+    gl.deleteBuffer(read);
     gl.deleteVertexArray(array);
   }
   return out;

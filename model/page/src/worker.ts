@@ -68,7 +68,7 @@ async function answer({ id, call, text, picture, numbers = [] }: Call): Promise<
     let made;
     if (by_shader) {
       const quads = run(model, "shader_quads", request, []), vertices = new Float32Array(quads.bytes);
-      const pixels = shader_pixels(by_shader[1] ? "determinant" : "printed", vertices, quads.result as ShaderState);
+      const pixels = await shader_pixels(by_shader[1] ? "determinant" : "printed", vertices, quads.result as ShaderState);
       if (call === "view") made = run(model, "shader_view", new Uint8Array(pixels.buffer), []);
       else made = { result: { ...quads.result, vertices: [...vertices] }, bytes: pixels.buffer as ArrayBuffer };
     } else {
@@ -80,7 +80,11 @@ async function answer({ id, call, text, picture, numbers = [] }: Call): Promise<
   }
 }
 
-self.onmessage = async (event: MessageEvent<Call>) => {
-  const reply = await answer(event.data);
-  (self as unknown as Worker).postMessage(reply, reply.bytes ? [reply.bytes] : []);
+/** One call after the other. */
+let last = Promise.resolve();
+self.onmessage = (event: MessageEvent<Call>) => {
+  last = last.then(async () => {
+    const reply = await answer(event.data);
+    (self as unknown as Worker).postMessage(reply, reply.bytes ? [reply.bytes] : []);
+  });
 };

@@ -24,7 +24,7 @@ test("a point of a sweep", async () => {
   const sweep = join(folder, "sweep");
   await run(program, ["sweep", "--scene", "fig10_concave", "--size", "64x64", "--cosim", "none", "--quiet", "--out", sweep, "--set", "guard_bits=4",
     "--axis", "significand_bits=10,14,18", "--axis", "subpixel_bits=6,8"]);
-  await run("python3", [join(root, "scripts/sweep_report.py"), sweep, "--page", "/page/index.html", "--out", join(folder, "report")]);
+  await run(join(root, "scripts/sweep_report.py"), [sweep, "--page", "/page/index.html", "--out", join(folder, "report")]);
   const [head, ...lines] = (await readFile(join(sweep, "points.csv"), "utf8")).trimEnd().split("\n").map((line) => line.split(","));
   const points = new Map(lines.map((cells) => [cells[0], Object.fromEntries(head.map((name, i) => [name, cells[i]]))]));
   const { page, problems, close } = await open(browser, server.address, "page/index.html#view=");
@@ -57,7 +57,7 @@ test("a point of a sweep", async () => {
 });
 
 test("a sheet of a figure", async () => {
-  await run("python3", [join(root, "scripts/figures.py"), "--quadrille", program, "--only", "hormann_tarini7", "--size", "64x64", "--out", join(folder, "figures")]);
+  await run(join(root, "scripts/figures.py"), ["--quadrille", program, "--only", "hormann_tarini7", "--size", "64x64", "--out", join(folder, "figures")]);
   const { page, problems, close } = await open(browser, server.address, "page/index.html#view=");
   await page.goto(`${server.address}figures/index.html`);
   const links = await page.$$eval("a[href*='page/index.html#']", (all) => all.map((link) => link.href));
