@@ -7,15 +7,18 @@ uniform bvec2 cull;   // back, front
 uniform vec2 depths;  // znear, zfar
 uniform bool perspective, depth;
 layout(location = 0) out vec4 weights;
-layout(location = 1) out vec4 seen;  // the quad + 1, window z, sum of the formulas' weights
+layout(location = 1) out vec4 seen;  // the quad + 1, window z, negative: a front
 
 float sum(vec4 v) { return v.x + v.y + v.z + v.w; }
 
 void main() {
   vec2 p = gl_FragCoord.xy - 0.5;
 #if DETERMINANT
-  vec4 m = mean_value_weights(x, y, w, n, p - origin.xy);
-  float facing = sum(m), all = sum(m * w);
+  MeanValueT found = mean_value_t(x, y, w, n, p - origin.xy);
+  vec4 m = found.a - found.t * n;
+  // Their common factor has any sign: the pixel is in triangle 012 or 023, on either side of the diagonal.
+  bool first = min(found.a.x, found.a.z) * found.a.y >= 0.0 && max(found.a.x, found.a.z) * found.a.y >= 0.0;
+  float facing = first ? found.a.y : -found.a.y, all = sum(m * w);
 #else
   vec4 m = paper_weights(x, y, w, p, 0.0);
   float facing = sum(m), all = 1.0;

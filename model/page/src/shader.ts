@@ -53,7 +53,7 @@ function program_of(gl: WebGL2RenderingContext, form: string): WebGLProgram {
 
 /**
  * `quads`: of each x, y, w, k, z of its corners. Returns of each pixel, row by row from the top, four weights, then of
- * each the quad + 1 (0: none), window z, the sum of the formulas' weights (negative: a front) and 0.
+ * each the quad + 1 (0: none), window z, what is negative of a front, and 0.
  */
 export async function shader_pixels(form: string, quads: Float32Array, state: ShaderState): Promise<Float32Array> {
   const gl = open();
