@@ -159,7 +159,7 @@ function show_state() {
   shown.options[2].hidden = !is_shader(view);
   shown.value = of_picture === "error" && !is_shader(view) ? "" : of_picture;
   element("difference_label").hidden = !is_picture(view);
-  element("beside_figure").hidden = view === "";
+  element("beside_stage").hidden = element("legend").hidden = view === "";
   element("beside_figure").parentElement!.classList.toggle("one", view === "");
   // Browsers allow few changes of an address a second.
   clearTimeout(address_timer);

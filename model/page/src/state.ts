@@ -20,13 +20,13 @@ const short_names = new Map([
   ["scene", "preset"],
   ["significand_bits", "s"],
   ["subpixel_bits", "subpixel"],
-  ["homogeneous_frac_bits", "homogeneous"],
+  ["homogeneous_frac_bits", "frac"],
   ["quadratic_frac_bits", "quadratic"],
   ["guard_bits", "guard"],
   ["align_guard_bits", "align"],
   ["sqrt_segments_log2", "sqrt"],
   ["recip_segments_log2", "recip"],
-  ["attribute_frac_bits", "attribute"],
+  ["attribute_frac_bits", "attr"],
   ["depth_bits", "z"],
 ]);
 const long_names = new Map([...short_names].map(([long, short]) => [short, long]));

@@ -33,6 +33,11 @@ for (const width of [400, 1400])
           .map((e) => e.id || e.tagName);
       });
       assert.deepEqual(overflow, []);
+      const beyond_panel = await page.$$eval("fieldset, .pixel, header", (panels) =>
+        panels.flatMap((panel) => [...panel.querySelectorAll("*")]
+          .filter((e) => e.checkVisibility() && !e.closest("svg, .hidden, .wide") && e.getBoundingClientRect().right > panel.getBoundingClientRect().right)
+          .map((e) => e.id || e.tagName)));
+      assert.deepEqual(beyond_panel, []);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
       // Text against what is behind it, by WCAG's formula.
       const contrast = await page.evaluate(() => {
@@ -59,6 +64,16 @@ for (const width of [400, 1400])
       await close();
       assert.deepEqual(problems, []);
     });
+
+test("both pictures lie side by side, also as pictures of a slide", async () => {
+  for (const [hash, width] of [["#preset=fig10_convex&view=fp32", 1400], ["#preset=fig10_convex&view=split02", 1000], ["#preset=fig10_convex&view=split02&embed", 800]]) {
+    const { page, close } = await open(browser, server.address, hash, { viewport: { width, height: 900 } });
+    await all_settled(page);
+    const [a, b] = [await page.locator("#machine").boundingBox(), await page.locator("#beside").boundingBox()];
+    assert.ok(a.y === b.y && a.height === b.height && a.x + a.width < b.x, `${hash}: ${JSON.stringify([a, b])}`);
+    await close();
+  }
+});
 
 test("colours of a legend differ to colour-blind eyes too", async () => {
   const { page, close } = await open(browser, server.address, "#preset=fig10_crossed");

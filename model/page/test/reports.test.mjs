@@ -22,7 +22,7 @@ const settled = (page) => page.waitForFunction(() => window.quadrille?.all_settl
 
 test("a point of a sweep", async () => {
   const sweep = join(folder, "sweep");
-  await run(program, ["sweep", "--scene", "fig10_concave", "--size", "64x64", "--cosim", "none", "--quiet", "--out", sweep, "--set", "guard_bits=4",
+  await run(program, ["sweep", "--scene", "fig10_concave", "--size", "64x64", "--cosim", "none", "--quiet", "--out", sweep, "--set", "guard_bits=2",
     "--axis", "significand_bits=10,14,18", "--axis", "subpixel_bits=6,8"]);
   await run(join(root, "scripts/sweep_report.py"), [sweep, "--page", "/page/index.html", "--out", join(folder, "report")]);
   const [head, ...lines] = (await readFile(join(sweep, "points.csv"), "utf8")).trimEnd().split("\n").map((line) => line.split(","));

@@ -22,6 +22,7 @@ const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/cs
 export async function serve(folder = null) {
   const server = createServer(async (request, response) => {
     const path = new URL(request.url, "http://host").pathname;
+    if (path === "/favicon.ico") return response.writeHead(204).end();
     try {
       const of_page = folder === null ? path : path.match(/^\/page(\/.*)/)?.[1];
       const file = await readFile(of_page === undefined ? join(folder, path) : join(page_folder, of_page === "/" ? "index.html" : of_page));

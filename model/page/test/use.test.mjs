@@ -130,6 +130,14 @@ test("a figure of each kind is one click away", async () => {
   assert.equal(seen.size, scenes.length);  // the first one was there before
 });
 
+test("nothing stands beside the machine's picture, and something again", async () => {
+  assert.equal(await page.isVisible("#beside"), false);
+  await page.selectOption("#view", "exact");
+  await page.locator("#beside").waitFor();
+  await page.selectOption("#view", "");
+  await page.locator("#beside").waitFor({ state: "hidden" });
+});
+
 test("fewer bits: another picture, a wider bound, a smaller machine", async () => {
   const costs = async () => Object.fromEntries(
     await page.$$eval("#costs dt", (terms) => terms.map((t) => [t.textContent, t.nextElementSibling.textContent])));
