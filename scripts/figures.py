@@ -28,7 +28,7 @@ from dataclasses import dataclass, field
 
 from report.files import Failed, InputError, write_files  # noqa: E402
 from report.markup import document, escape, table  # noqa: E402
-from report.program import INSTALLED, PROGRAM, ROOT, end, options  # noqa: E402
+from report.program import INSTALLED, PROGRAM, ROOT, end, options, page_option  # noqa: E402
 
 TABLE = os.path.join(ROOT, "scripts", "figures.toml")
 OUT = "figures" if INSTALLED else os.path.join(ROOT, "build/figures")
@@ -202,7 +202,16 @@ def facts(*lines):
     return "<dl>" + "".join(f"<dt>{name}</dt><dd>{said}</dd>" for name, said in lines) + "</dl>\n"
 
 
-def sheet_section(figure, sheet, size, directory):
+def page_link(sheet, size, address):
+    """The page with the sheet's scene, and beside the machine's picture the first method that is another."""
+    beside = next((method for method in sheet.methods if method != "mvc"), "exact")
+    words = {"preset": sheet.scene, "size": size, "view": re.sub("^refine:.*", "refine", beside)}
+    words |= {"shade": sheet.shade} if sheet.shade else {}
+    words |= {} if sheet.perspective else {"perspective": 0}
+    return f"<a href='{escape(address)}#{escape('&'.join(f'{key}={value}' for key, value in words.items()))}'>draw it in the page</a>"
+
+
+def sheet_section(figure, sheet, size, directory, address):
     folder = figure.folder(sheet)
     with open(os.path.join(directory, folder, "table.json"), encoding="utf-8") as file:
         report = json.load(file)
@@ -210,7 +219,7 @@ def sheet_section(figure, sheet, size, directory):
     caption = f"<p>{text(sheet.caption)}</p>\n" if sheet.caption else ""
     names = ["sheet.png", "table.json", "table.csv", "table.md"]
     names += sorted(name for name in os.listdir(os.path.join(directory, folder)) if name.endswith(".exr"))
-    links = " · ".join(f"<a href='{folder}/{name}'>{name}</a>" for name in names)
+    links = " · ".join([f"<a href='{folder}/{name}'>{name}</a>" for name in names] + [page_link(sheet, size, address)])
     alternative = escape(f"{sheet.scene}: {', '.join(sheet.methods)}")
     methods = ", ".join(f"<code>{escape(method)}</code>" for method in sheet.methods)
     return (f"<section class='sheet' id='{figure.name}-{sheet.name}'>\n{caption}{facts(('Scene', f'<code>{sheet.scene}</code>'), ('Methods', methods))}"
@@ -218,8 +227,8 @@ def sheet_section(figure, sheet, size, directory):
             f"<pre>{escape(shlex.join(['quadrille', *sheet.command(folder, size)]))}</pre>\n<p class='note'>{links}</p>\n</section>\n")
 
 
-def figure_article(figure, size, directory):
-    sheets = "".join(sheet_section(figure, sheet, size, directory) for sheet in figure.sheet)
+def figure_article(figure, size, directory, address):
+    sheets = "".join(sheet_section(figure, sheet, size, directory, address) for sheet in figure.sheet)
     said = facts(("The paper’s figure", text(figure.shows)), ("Look for", text(figure.look)))
     return (f"<article id='{figure.name}'>\n<h3>{text(figure.number)}: {text(figure.title)}</h3>\n"
             f"{said}{sheets}</article>\n")
@@ -235,7 +244,7 @@ folder of this page.</p>
 """
 
 
-def page(papers, figures, size, directory):
+def page(papers, figures, size, directory, address):
     contents, chapters = "", ""
     for paper in papers:
         own = [figure for figure in figures if figure.paper == paper.key]
@@ -245,7 +254,7 @@ def page(papers, figures, size, directory):
         contents += f"<h4><a href='#{paper.key}'>{text(paper.title)}</a></h4>\n<ul class='contents'>\n{items}</ul>\n"
         where = f" (<code>{escape(paper.link)}</code>)" if paper.link else ""
         chapters += f"<h2 id='{paper.key}'>{text(paper.title)}</h2>\n<p>{text(paper.source)}{where}</p>\n"
-        chapters += "".join(figure_article(figure, size, directory) for figure in own)
+        chapters += "".join(figure_article(figure, size, directory, address) for figure in own)
     return document("Figures of the papers", f"{INTRODUCTION}<nav>{contents}</nav>\n{chapters}")
 
 
@@ -273,6 +282,7 @@ def main():
     parser.add_argument("--only", metavar="NAME", nargs="+", action="extend", default=[], help="figures, by their names in figures.toml (default: all)")
     parser.add_argument("--size", metavar="WxH", type=size_of, default="512x512", help="viewport in pixels (default: 512x512)")
     parser.add_argument("--keep-exr", action="store_true", help="keep METHOD.exr of every sheet (7 MB each at 512x512)")
+    page_option(parser, "../page/index.html")
     args = parser.parse_args()
     papers, figures = read_table()
     figures = chosen(figures, args.only)
@@ -281,7 +291,7 @@ def main():
         os.makedirs(out, exist_ok=True)
         aside, lock = stage(out)
         seconds = draw(os.path.abspath(args.quadrille), figures, args.size, args.keep_exr, aside)
-        content = page(papers, figures, args.size, aside)
+        content = page(papers, figures, args.size, aside, args.page)
         move_into_place(figures, aside, out)
         shutil.rmtree(aside)
         os.close(lock)

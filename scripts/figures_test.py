@@ -189,7 +189,11 @@ class Drawing(unittest.TestCase):
                 command = json.loads(self.read(folder, "table.json"))["command"]
                 self.assertIn(f"<pre>{figures.escape(command)}</pre>", content)
         self.assertEqual(self.files(), sorted(wanted))
-        for link in page.links + page.images:
+        into_page = [link for link in page.links if link.startswith("../page/index.html#")]
+        self.assertEqual(into_page, [f"../page/index.html#preset={state}" for state in (
+            "fig7_floor&size=64x64&view=split02&perspective=0", "fig7_floor&size=64x64&view=split02",
+            *(f"bloomenthal14_{name}&size=64x64&view=bilinear" for name in "abc"), *2 * ["oliveira15_nonplanar&size=64x64&view=split02"])])
+        for link in [link for link in page.links if link not in into_page] + page.images:
             self.assertNotRegex(link, r"^(\w+:|/)")
             target = link[1:] if link.startswith("#") else None
             self.assertTrue(target in page.ids if target else os.path.isfile(self.path(link)), link)

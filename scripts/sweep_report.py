@@ -17,7 +17,7 @@ from report import plot, sweep_plots  # noqa: E402 (first: it says what is missi
 from report.files import read_report, reading, write_files  # noqa: E402
 from report.markup import escape, table  # noqa: E402
 from report.page import Page  # noqa: E402
-from report.program import end, options  # noqa: E402
+from report.program import end, options, page_option  # noqa: E402
 from report.sweep import SYNTH_TARGETS, Sweep, error_title  # noqa: E402
 
 # More points than this make the page slow; the rest is in the PNG and in points.csv.
@@ -40,7 +40,7 @@ in [0, 1].</li>
 step, 2<sup>−16</sup> about 1.5·10<sup>−5</sup>.</li>
 <li><b>Cost</b> is COST</li>
 <li>Point at a mark to see its configuration; click it to keep the details and the command that prints its worst fragment. Drag to zoom, double-click to
-reset.</li>
+reset. A row's number opens the page that draws with its configuration.</li>
 </ul>"""
 
 
@@ -153,7 +153,7 @@ def details(sweep, points):
     points = sorted(points)
     titles = {name: error_title(name) if name in sweep.errors else ", ".join(filter(None, [name.replace("_", " "), unit]))
               for name, unit in sweep.columns.items() if name in sweep.value and name not in sweep.base_config}
-    return {"row": [sweep.rows[i] for i in points], "titles": titles, "errors": [*sweep.errors, "bound_lambda", "bound_attribute", "bound_depth", "worst_error"],
+    return {"page": sweep.address(), "keys": [sweep.address_keys(i) for i in points], "row": [sweep.rows[i] for i in points], "titles": titles, "errors": [*sweep.errors, "bound_lambda", "bound_attribute", "bound_depth", "worst_error"],
             "words": [sweep.words(i) for i in points], "worst": [sweep.text["worst"][i] for i in points],
             "values": {name: [plot.short(sweep.value[name][i]) for i in points] for name in titles}}
 
@@ -178,11 +178,12 @@ def main():
     parser.add_argument("directory", metavar="DIR", help="--out of `quadrille sweep`")
     parser.add_argument("--bench", metavar="FILE", help="JSON of `quadrille bench --error`; adds run times")
     parser.add_argument("--out", metavar="OUTDIR", help="folder of the report (default: DIR/report)")
+    page_option(parser, "page/index.html")
     args = parser.parse_args()
     out = args.out or os.path.join(args.directory, "report")
     with reading(args.bench, "`quadrille bench --error --json FILE`"):
         bench = sweep_plots.run_time(read_report(args.bench) if args.bench else None)
-    files = render(Sweep(args.directory), bench)
+    files = render(Sweep(args.directory, args.page), bench)
     write_files(out, files)
     for name in PLOTS:  # of an older report
         if f"{name}.png" not in files:

@@ -17,6 +17,8 @@ import sys
 import tempfile
 import unittest
 import unittest.mock
+import urllib.parse
+from html import unescape
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
@@ -96,7 +98,7 @@ class Report(unittest.TestCase):
         html, figures = page("search")
         points, manifest = rows_of("search")
         winner = points[manifest["search"]["winner"]]
-        self.assertIn(f"<td>{winner['row']}</td><td>significand_bits = {winner['significand_bits']}, align_guard_bits = {winner['align_guard_bits']}</td>", html)
+        self.assertIn(f">{winner['row']}</a></td><td>significand_bits = {winner['significand_bits']}, align_guard_bits = {winner['align_guard_bits']}</td>", html)
         self.assertEqual(figures["error_cost"][0]["cheapest that meets the target"]["customdata"], [int(winner["row"])])
 
     def test_page_needs_no_network(self):
@@ -105,9 +107,27 @@ class Report(unittest.TestCase):
         html, figures = page("full")
         own = html.replace(get_plotlyjs(), "")
         self.assertLess(len(own), len(html) - 1_000_000)  # plotly.js is inside
-        self.assertNotRegex(own, r"https?://|@import|url\(|(?:src|href)\s*=\s*['\"](?!data:|#|[a-z_]+\.png)")
+        self.assertNotRegex(own, r"https?://|@import|url\(|(?:src|href)\s*=\s*['\"](?!data:|#|[a-z_]+\.png|page/index\.html#|\$\{escape\(D\.page)")
         for chosen in figures.values():
             go.Figure({"data": list(chosen[0].values())})  # throws for an unknown property
+
+    def test_links_into_the_page(self):
+        """Each row that is named opens the page with its scene and its configuration; so does a mark that was clicked."""
+        for name in SWEEPS:
+            points, manifest = rows_of(name)
+            keys = [key for key, value in manifest["config"].items() if value != -1 or key in {axis["key"] for axis in manifest["axes"]}]
+            html, _ = page(name)
+            details = json.loads(re.search("<script type='application/json' id='points'>(.*?)</script>", html, re.S)[1])
+            links = [(unescape(link), row) for link, row in re.findall(r"<a href='([^'#]*#[^']*)'>(\d+)</a>", html)]
+            links += [(details["page"] + more, str(row)) for row, more in zip(details["row"], details["keys"])]
+            self.assertGreater(len(links), len(manifest["front"]))
+            for link, row in links:
+                state = dict(urllib.parse.parse_qsl(link.removeprefix("page/index.html#"), strict_parsing=True))
+                self.assertEqual((state.pop("preset"), state.pop("size")), ("sphere", "96x64"))
+                self.assertEqual(state, {key: points[int(row)][key] for key in keys})
+        self.assertEqual(call(WORK / "full", "--page", "https://a.example/page/#x", "--out", WORK / "elsewhere")[0], 2)
+        self.assertEqual(call(WORK / "full", "--page", "https://a.example/<page>/", "--out", WORK / "elsewhere"), (0, ""))
+        self.assertIn("<a href='https://a.example/&lt;page&gt;/#preset=sphere&amp;", (WORK / "elsewhere/report.html").read_text())
 
     def test_same_input_same_bytes(self):
         again = subprocess.run([sys.executable, HERE / "sweep_report.py", WORK / "full", "--bench", WORK / "bench.json", "--out", WORK / "again"], capture_output=True, text=True,

@@ -38,6 +38,13 @@ cmake --build "$module" -j "$(nproc)" --target quadrille_page page_lanes_check
 mkdir -p "$output"
 cp "$module/model/page/quadrille_page" "$output/quadrille.wasm"
 cp "$here/index.html" "$output/"
-"$tools/node_modules/.bin/esbuild" "$here/src/main.ts" --bundle --minify --format=esm --target=es2022 --outfile="$output/page.js" --log-level=warning
-"$tools/node_modules/.bin/esbuild" "$here/src/worker.ts" --bundle --minify --target=es2022 --outfile="$output/worker.js" --log-level=warning
+# The named configurations: the aim is a file's first line.
+configurations=$(python3 - "$root"/rtl/configurations/*.toml <<'END'
+import json, pathlib, sys, tomllib
+texts = {path.stem: path.read_text(encoding="utf-8") for path in map(pathlib.Path, sys.argv[1:])}
+print(json.dumps({name: {"aim": text.splitlines()[0].lstrip("# "), "keys": tomllib.loads(text)} for name, text in texts.items()}))
+END
+)
+"$tools/node_modules/.bin/esbuild" "$here/src/main.ts" "--define:configurations=$configurations" --bundle --minify --format=esm --target=es2022 --outfile="$output/page.js" --log-level=warning
+"$tools/node_modules/.bin/esbuild" "$here/src/worker.ts" --bundle --minify --target=es2022 --loader:.glsl=text --outfile="$output/worker.js" --log-level=warning
 "$tools/node_modules/.bin/esbuild" "$here/src/page.css" --minify --outfile="$output/page.css" --log-level=warning

@@ -76,12 +76,17 @@ std::function<Vec3(double, double)> texture_of(const std::string& name) {
   for (const auto kind : {golden::TextureKind::checker, golden::TextureKind::fine, golden::TextureKind::globe})
     if (golden::texture_name(kind) == name)
       return [kind](double u, double v) { return golden::procedural_texture(kind, u, v); };
+  if (name == "grid")
+    return [](double u, double v) {
+      const auto from_line = [](double c) { return std::fabs(8 * c - std::round(8 * c)); };
+      return std::min(from_line(u), from_line(v)) < 0.06 ? Vec3{0.10, 0.14, 0.30} : Vec3{0.92, 0.92, 0.88};
+    };
   if (name == "own" && own_picture)
     return [picture = own_picture](double u, double v) {
       const std::array<double, 4> rgba = picture->sample(u, v);
       return Vec3{rgba[0], rgba[1], rgba[2]};
     };
-  throw std::invalid_argument("texture=" + name + ": expected checker, fine, globe" +
+  throw std::invalid_argument("texture=" + name + ": expected checker, fine, grid, globe" +
                               (name == "own" ? "; or choose a picture of your own again" : ""));
 }
 
@@ -142,28 +147,17 @@ Drawing make_drawing(const Request& request) {
   return out;
 }
 
-Values values_of(const Drawing& drawing) { return drawing.attributes == 0 ? Values::weights : Values::shading; }
-
-Picture draw_picture(const Drawing& drawing, Values values) {
-  const Request& request = drawing.request;
-  DrawState state = drawing.state;
-  state.attributes = values == Values::weights ? 4 : drawing.attributes;
-  if (state.attributes > request.config.attribute_slots)
-    throw std::invalid_argument("attribute_slots=" + std::to_string(request.config.attribute_slots) +
-                                ": this shading needs " + std::to_string(state.attributes));
-  Picture out{{request.width, request.height, state.attributes, request.config, state.depth, true}, {}, {}};
-  UntimedModel model(request.config, state);
-  for (std::size_t i = 0; i < drawing.quads.size(); ++i) {
-    WindowQuad quad = values == Values::weights ? weighted(drawing.quads[i]) : drawing.quads[i];
-    quad.id = static_cast<std::uint32_t>(i);
-    model.draw_arrays(snap_quad(quad, request.config, state),
-                      [&](const FragmentArrays& fragments) { out.image.write(fragments); });
+BareQuads bare_quads(const Drawing& drawing) {
+  BareQuads out{drawing.state, {}};
+  out.state.attributes = 0;
+  for (WindowQuad quad : drawing.quads) {
+    quad.id = static_cast<std::uint32_t>(out.quads.size());
+    out.quads.push_back(snap_quad(quad, drawing.request.config, out.state));
   }
-  out.image.settle();
-  out.stats = model.stats();
-  out.lanes = model.lane_pixels();
   return out;
 }
+
+Values values_of(const Drawing& drawing) { return drawing.attributes == 0 ? Values::weights : Values::shading; }
 
 FragmentTable draw_fragments(const Drawing& drawing) {
   const Config& config = drawing.request.config;
@@ -182,6 +176,7 @@ FragmentTable draw_fragments(const Drawing& drawing) {
       model.draw(quad, [&](std::span<const Fragment> fragments) {
         for (const Fragment& f : fragments) {
           if (first) {
+            out.quads.push_back(static_cast<std::uint32_t>(i));
             for (const std::uint32_t head : {drawing.quads[i].id, std::uint32_t{f.x}, std::uint32_t{f.y},
                                              std::uint32_t{f.front}, std::uint32_t{f.flags}, f.depth})
               out.heads.push_back(head);
@@ -195,7 +190,52 @@ FragmentTable draw_fragments(const Drawing& drawing) {
         }
       });
     }
+    if (first) out.stats = model.stats(), out.lanes = model.lane_pixels();
   }
+  return out;
+}
+
+namespace {
+
+/// With more attributes than the machine has slots.
+Picture picture_of_passes(const Drawing& drawing, int attributes, Values values) {
+  const Request& request = drawing.request;
+  const FragmentTable table = draw_fragments(drawing);
+  Picture out{{request.width, request.height, attributes, request.config, drawing.state.depth, true},
+              table.stats,
+              table.lanes};
+  const std::size_t first = values == Values::weights ? 0 : 4, columns = static_cast<std::size_t>(table.columns);
+  std::vector<double> value(static_cast<std::size_t>(attributes));
+  for (std::size_t f = 0; f < table.quads.size(); ++f) {
+    const auto pixel =
+        static_cast<std::size_t>(table.heads[6 * f + 2]) * static_cast<std::size_t>(request.width) + table.heads[6 * f + 1];
+    const double depth = std::ldexp(static_cast<double>(table.heads[6 * f + 5]), -request.config.depth_bits);
+    if (drawing.state.depth && !(depth < out.image.depth()[pixel])) continue;
+    for (std::size_t j = 0; j < value.size(); ++j)
+      value[j] = std::ldexp(static_cast<double>(table.codes[f * columns + first + j]), -request.config.attribute_frac());
+    out.image.overwrite(pixel, depth, value, table.quads[f]);
+  }
+  return out;
+}
+
+}  // namespace
+
+Picture draw_picture(const Drawing& drawing, Values values) {
+  const Request& request = drawing.request;
+  DrawState state = drawing.state;
+  state.attributes = values == Values::weights ? 4 : drawing.attributes;
+  if (state.attributes > request.config.attribute_slots) return picture_of_passes(drawing, state.attributes, values);
+  Picture out{{request.width, request.height, state.attributes, request.config, state.depth, true}, {}, {}};
+  UntimedModel model(request.config, state);
+  for (std::size_t i = 0; i < drawing.quads.size(); ++i) {
+    WindowQuad quad = values == Values::weights ? weighted(drawing.quads[i]) : drawing.quads[i];
+    quad.id = static_cast<std::uint32_t>(i);
+    model.draw_arrays(snap_quad(quad, request.config, state),
+                      [&](const FragmentArrays& fragments) { out.image.write(fragments); });
+  }
+  out.image.settle();
+  out.stats = model.stats();
+  out.lanes = model.lane_pixels();
   return out;
 }
 

@@ -38,6 +38,13 @@ void set_own_picture(golden::Image8 picture);
 /// Throws std::invalid_argument for an unknown scene, vertex, shading or texture.
 Drawing make_drawing(const Request& request);
 
+/// The quads as the machine takes them for weights alone, ids from 0 on, and their state: without attributes.
+struct BareQuads {
+  DrawState state;
+  std::vector<SnappedQuad> quads;
+};
+BareQuads bare_quads(const Drawing& drawing);
+
 /// The quad with its weights as attributes, or with those of the shading.
 enum class Values { weights, shading };
 
@@ -55,8 +62,11 @@ Values values_of(const Drawing& drawing);
 /// has them.
 struct FragmentTable {
   int columns = 0;                   ///< l0 l1 l2 l3, then the attributes
-  std::vector<std::uint32_t> heads;  ///< quad, x, y, front, flags, depth of each
+  std::vector<std::uint32_t> quads;  ///< of each, from 0 on
+  std::vector<std::uint32_t> heads;  ///< quad's id, x, y, front, flags, depth of each
   std::vector<std::int64_t> codes;   ///< `columns` of each
+  DrawStats stats;                   ///< of the first pass
+  LanePixels lanes;
 };
 FragmentTable draw_fragments(const Drawing& drawing);
 

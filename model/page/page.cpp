@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -27,6 +28,9 @@ namespace {
 std::string request_text, result_text;
 std::vector<std::uint8_t> result_bytes;
 std::optional<Stepper> stepper;
+std::optional<Drawing> shaded;  ///< by a shader
+
+const char* name_of(Cull cull) { return cull == Cull::none ? "none" : cull == Cull::front ? "front" : "back"; }
 
 template <class Call>
 int answer(Call&& call) {
@@ -110,9 +114,7 @@ std::string drawing_json(const Drawing& d, const Picture& picture) {
       .put("shade", d.shade)
       .put("texture", d.texture)
       .put("perspective", d.state.perspective)
-      .put("cull", d.state.cull == Cull::none    ? "none"
-                   : d.state.cull == Cull::front ? "front"
-                                                 : "back")
+      .put("cull", name_of(d.state.cull))
       .put("is_scene", d.request.is_scene())
       .put("quads", d.quads.size())
       .raw("matrix", Json::numbers(d.matrix))
@@ -201,6 +203,37 @@ EXPORT(draw) int draw() {
 EXPORT(view) int view() {
   return answer([](const std::string& text) {
     View view = draw_view(make_drawing(parse_request(text)));
+    result_bytes = std::move(view.rgba);
+    return view.json;
+  });
+}
+
+/// What a shader draws of the request: bytes are floats (views.hpp).
+EXPORT(shader_quads) int shader_quads() {
+  return answer([](const std::string& text) {
+    shaded = make_drawing(parse_request(text));
+    put_bytes(page::shader_quads(*shaded));
+    const DrawState& state = shaded->state;
+    return Json()
+        .put("width", state.width)
+        .put("height", state.height)
+        .put("perspective", state.perspective)
+        .put("depth", state.depth)
+        .put("cull", name_of(state.cull))
+        .put("znear", state.znear)
+        .put("zfar", state.zfar)
+        .text();
+  });
+}
+/// Instead of a request: what the shader drew of the one before, as floats (views.hpp).
+EXPORT(shader_view) int shader_view() {
+  return answer([](const std::string& text) {
+    if (!shaded) throw std::logic_error("shader_view: shader_quads comes first");
+    std::vector<float> pixels(text.size() / sizeof(float));
+    if (pixels.size() != std::size_t{8} * static_cast<std::size_t>(shaded->state.width * shaded->state.height))
+      throw std::invalid_argument("shader_view: expected eight floats a pixel");
+    std::memcpy(pixels.data(), text.data(), text.size());
+    View view = page::shader_view(*shaded, pixels);
     result_bytes = std::move(view.rgba);
     return view.json;
   });

@@ -1,6 +1,5 @@
 #include "model/page/stepper.hpp"
 
-#include "model/port/snap.hpp"
 #include "model/support/json.hpp"
 
 namespace quadrille::page {
@@ -8,24 +7,14 @@ namespace {
 
 constexpr std::array<std::string_view, 7> stage_names{"diff", "norm", "sqrt", "ratio", "weight", "sum", "fragment"};
 
-DrawState bare(DrawState state) {
-  state.attributes = 0;
-  return state;
-}
-
 }  // namespace
 
 Stepper::Stepper(const Drawing& drawing)
     : config_(drawing.request.config),
-      model_(config_, bare(drawing.state), Probes::all),
+      bare_(bare_quads(drawing)),
+      model_(config_, bare_.state, Probes::all),
       prng_(1),
       ring_(static_cast<std::size_t>(ring_entries(config_))) {
-  const DrawState state = bare(drawing.state);
-  for (const WindowQuad& quad : drawing.quads) {
-    WindowQuad numbered = quad;
-    numbered.id = static_cast<std::uint32_t>(quads_.size());
-    quads_.push_back(snap_quad(numbered, config_, state));
-  }
   ClockedInputs reset;
   reset.reset = true;
   model_.clock(reset);
@@ -39,9 +28,9 @@ void Stepper::run(int clocks, int stall) {
 void Stepper::clock(bool ready) {
   const ClockedOutputs outputs = model_.comb();
   ClockedInputs inputs;
-  inputs.vertex_valid = beats_ < 4 * quads_.size();
+  inputs.vertex_valid = beats_ < 4 * bare_.quads.size();
   inputs.fragment_ready = ready;
-  if (inputs.vertex_valid) inputs.vertex = beat_of(quads_[beats_ / 4], beats_ % 4);
+  if (inputs.vertex_valid) inputs.vertex = beat_of(bare_.quads[beats_ / 4], beats_ % 4);
   vertex_taken_ = inputs.vertex_valid && outputs.vertex_ready;
   stalls_ = outputs.fragment_valid && !ready;
   look(outputs);
@@ -60,7 +49,7 @@ void Stepper::clock(bool ready) {
   beats_ += vertex_taken_ ? 1 : 0;
   stalled_ += stalls_ ? 1 : 0;
   ++clocks_;
-  done_ = beats_ == 4 * quads_.size() && !model_.comb().busy;
+  done_ = beats_ == 4 * bare_.quads.size() && !model_.comb().busy;
 }
 
 void Stepper::look(const ClockedOutputs& outputs) {

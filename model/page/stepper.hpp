@@ -38,7 +38,7 @@ class Stepper {
   void look(const ClockedOutputs& outputs);
 
   Config config_;
-  std::vector<SnappedQuad> quads_;
+  BareQuads bare_;
   ClockedModel model_;
   golden::Prng prng_;
   std::size_t beats_ = 0;  ///< taken

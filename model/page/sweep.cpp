@@ -2,12 +2,10 @@
 
 #include "golden/analysis/error_bound.hpp"
 #include "golden/analysis/hardware_cost.hpp"
-#include "golden/reference/truth.hpp"
-#include "model/port/snap.hpp"
+#include "model/page/weight_error.hpp"
 #include "model/support/json.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace quadrille::page {
@@ -15,31 +13,9 @@ namespace {
 
 /// At every other pixel of every other row. The exact weights depend on significand_bits too: by the k of the corners.
 double worst_error(const Drawing& drawing) {
-  const Picture picture = draw_picture(drawing, Values::weights);
-  const DepthImage<double>& image = picture.image;
-  const auto pixel_of = [&](const golden::PixelPlace& at) {
-    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(image.width()) + static_cast<std::size_t>(at.x);
-  };
-  std::vector<std::vector<golden::PixelPlace>> places(drawing.quads.size());
-  for (int y = 0; y < image.height(); y += 2)
-    for (int x = 0; x < image.width(); x += 2)
-      if (const std::uint32_t quad = image.quads()[pixel_of({x, y})]; quad != DepthImage<double>::no_quad)
-        places[quad].push_back({x, y});
-  DrawState state = drawing.state;
-  state.attributes = 0;
   double worst = 0;
-  std::vector<golden::ReferenceSample> exact;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].empty()) continue;
-    const Config& config = drawing.request.config;
-    const golden::TruthQuad truth(snap_quad(drawing.quads[i], config, state), config, state);
-    exact.assign(places[i].size(), {});
-    truth.samples(places[i], exact, lane_target());
-    for (std::size_t n = 0; n < exact.size(); ++n)
-      for (std::size_t k = 1; k < 4; ++k)
-        worst = std::max(worst,
-                         std::fabs(image.attribute(static_cast<int>(k))[pixel_of(places[i][n])] - exact[n].lambda[k]));
-  }
+  weight_errors(drawing, draw_picture(drawing, Values::weights).image, 2,
+                [&](const WeightError& of) { worst = std::max(worst, of.error); });
   return worst;
 }
 

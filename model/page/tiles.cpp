@@ -3,7 +3,6 @@
 #include "model/front/quad_setup.hpp"
 #include "model/front/tile_walk.hpp"
 #include "model/page/views.hpp"
-#include "model/port/snap.hpp"
 #include "model/support/json.hpp"
 
 #include <algorithm>
@@ -20,8 +19,7 @@ enum Fate : std::uint8_t { untouched, block_left_out, left_out, empty, drawn };
 
 View tiles_view(const Drawing& drawing) {
   const Config& config = drawing.request.config;
-  DrawState state = drawing.state;
-  state.attributes = 0;
+  const auto [state, quads] = bare_quads(drawing);
   const int edge = config.tile(), columns = (state.width + edge - 1) / edge, rows = (state.height + edge - 1) / edge;
   std::vector<Fate> fate(static_cast<std::size_t>(columns * rows), untouched);
   const auto raise = [&](int x, int y, Fate to) {
@@ -31,10 +29,7 @@ View tiles_view(const Drawing& drawing) {
   };
   UntimedModel model(config, state);
   TileWalk walk(config, state);
-  for (std::size_t i = 0; i < drawing.quads.size(); ++i) {
-    WindowQuad numbered = drawing.quads[i];
-    numbered.id = static_cast<std::uint32_t>(i);
-    const SnappedQuad quad = snap_quad(numbered, config, state);
+  for (const SnappedQuad& quad : quads) {
     model.draw_arrays(quad, [&](const FragmentArrays& f) {
       for (std::size_t n = 0; n < f.size; ++n) raise(f.place[n].x / edge, f.place[n].y / edge, drawn);
     });

@@ -2,14 +2,15 @@
 
 #include "golden/analysis/error_bound.hpp"
 #include "golden/methods/method.hpp"
-#include "golden/reference/paper_float.hpp"
+#include "golden/reference/port_number.hpp"
 #include "golden/reference/truth.hpp"
 #include "golden/scenes/shading.hpp"
 #include "model/drive.hpp"
-#include "model/port/snap.hpp"
+#include "model/page/weight_error.hpp"
 #include "model/support/json.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace quadrille::page {
@@ -32,6 +33,9 @@ Vec3 scale_colour(double t) {
   return out;
 }
 
+/// Of what exact coverage has not.
+constexpr Vec3 outside_colour{0.84, 0.37, 0.00};
+
 class Canvas {
  public:
   Canvas(int width, int height) : width_(width), rgba_(static_cast<std::size_t>(4 * width * height)) {
@@ -52,9 +56,9 @@ class Canvas {
 /// The nearest of weights in real numbers, as values of the shading.
 class RealPicture {
  public:
-  explicit RealPicture(const Drawing& drawing)
+  RealPicture(const Drawing& drawing, Values values)
       : drawing_(drawing),
-        values_(values_of(drawing)),
+        values_(values),
         image_(drawing.request.width, drawing.request.height, values_ == Values::weights ? 4 : drawing.attributes,
                drawing.request.config, drawing.state.depth, true),
         undefined_(static_cast<std::size_t>(drawing.request.width * drawing.request.height)) {}
@@ -79,6 +83,8 @@ class RealPicture {
     undefined_count_ += undefined;
   }
 
+  const DepthImage<double>& image() const { return image_; }
+
   View view() const {
     View out;
     out.rgba = Shader(drawing_).shade(image_, values_);
@@ -97,32 +103,17 @@ class RealPicture {
   std::size_t fragments_ = 0, undefined_count_ = 0;
 };
 
-/// A state without attributes, for quads of which weights alone are wanted.
-DrawState weights_state(const Drawing& drawing) {
-  DrawState state = drawing.state;
-  state.attributes = 0;
-  return state;
-}
-
-SnappedQuad snapped(const Drawing& drawing, std::size_t i, const DrawState& state) {
-  WindowQuad quad = drawing.quads[i];
-  quad.id = static_cast<std::uint32_t>(i);
-  return snap_quad(quad, drawing.request.config, state);
-}
-
-/// By a reference that says of each pixel what it is (truth, the paper's formulas): on the snapped quad.
-template <class Reference>
-View by_reference(const Drawing& drawing) {
-  RealPicture picture(drawing);
-  const DrawState state = weights_state(drawing);
-  for (std::size_t i = 0; i < drawing.quads.size(); ++i) {
-    const Reference reference(snapped(drawing, i, state), drawing.request.config, state);
-    const golden::CoverageRows& rows = reference.rows();
-    const golden::PixelRect box = rows.bounds();
+/// By exact arithmetic, on the snapped quads.
+View exact_view(const Drawing& drawing) {
+  RealPicture picture(drawing, values_of(drawing));
+  const BareQuads bare = bare_quads(drawing);
+  for (std::size_t i = 0; i < bare.quads.size(); ++i) {
+    const golden::TruthQuad truth(bare.quads[i], drawing.request.config, bare.state);
+    const golden::PixelRect box = truth.rows().bounds();
     for (int y = box.y0; y < box.y1; ++y)
       for (int x = box.x0; x < box.x1; ++x) {
-        const golden::ReferenceSample s = reference.sample(x, y);
-        if (s.covered && s.visible) picture.add(i, x, y, s.front, s.undefined, s.z, s.lambda);
+        const golden::ReferenceSample s = truth.sample(x, y);
+        if (s.covered && s.visible) picture.add(i, x, y, s.front, false, s.z, s.lambda);
       }
   }
   return picture.view();
@@ -130,7 +121,7 @@ View by_reference(const Drawing& drawing) {
 
 View by_method(const Drawing& drawing, const std::string& spec) {
   const auto method = golden::methods::make_method(spec);
-  RealPicture picture(drawing);
+  RealPicture picture(drawing, values_of(drawing));
   const golden::methods::View view{drawing.request.width, drawing.request.height, drawing.state.perspective};
   std::vector<golden::methods::MethodSample> samples;
   for (std::size_t i = 0; i < drawing.quads.size(); ++i) {
@@ -142,51 +133,36 @@ View by_method(const Drawing& drawing, const std::string& spec) {
   return picture.view();
 }
 
-/// Of each shown pixel the largest |error| of its weights 1 to 3 by their bound; log colours from 2^-8 of it on.
-View error_view(const Drawing& drawing) {
-  const Picture picture = draw_picture(drawing, Values::weights);
-  const DepthImage<double>& image = picture.image;
+/// Of each shown pixel the error of its weights by the machine's bound; log colours from 2^-8 of it on.
+View error_view(const Drawing& drawing, const DepthImage<double>& weights, bool homogeneous) {
   const ErrorBound bound = bound_lambda(drawing.request.config);
-  const DrawState state = weights_state(drawing);
-  std::vector<std::vector<golden::PixelPlace>> places(drawing.quads.size());
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x)
-      if (const std::uint32_t quad = image.quads()[static_cast<std::size_t>(y * image.width() + x)];
-          quad != DepthImage<double>::no_quad)
-        places[quad].push_back({x, y});
-  Canvas canvas(image.width(), image.height());
-  double worst = 0, worst_x = -1, worst_y = -1;
+  Canvas canvas(weights.width(), weights.height());
+  WeightError worst{-1, -1};
+  std::size_t outside = 0, undefined = 0;
   constexpr double darkest = -8;
-  std::vector<golden::ReferenceSample> samples;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].empty()) continue;
-    const golden::TruthQuad truth(snapped(drawing, i, state), drawing.request.config, state);
-    samples.assign(places[i].size(), {});
-    truth.samples(places[i], samples, lane_target());
-    for (std::size_t n = 0; n < samples.size(); ++n) {
-      const auto [x, y] = places[i][n];
-      const std::size_t pixel = canvas.at(x, y);
-      double error = 0;
-      for (int k = 1; k < 4; ++k)
-        error = std::max(error, std::fabs(image.attribute(k)[pixel] - samples[n].lambda[static_cast<std::size_t>(k)]));
-      const double of_bound = error / bound.value;
-      canvas.put(pixel, scale_colour(of_bound > 0 ? 1 - std::log2(of_bound) / darkest : 0));
-      if (of_bound > worst) worst = of_bound, worst_x = x, worst_y = y;
-    }
-  }
+  weight_errors(drawing, weights, 1, [&](const WeightError& of) {
+    const std::size_t pixel = canvas.at(of.x, of.y);
+    outside += !of.inside;
+    undefined += of.inside && std::isnan(of.error);
+    if (!of.inside || std::isnan(of.error)) return canvas.put(pixel, of.inside ? golden::undefined_colour : outside_colour);
+    canvas.put(pixel, scale_colour(of.error > 0 ? 1 - std::log2(of.error / bound.value) / darkest : 0));
+    if (of.error > worst.error) worst = of;
+  });
   return {canvas.take(), Json()
-                             .put("worst", worst)
+                             .put("worst", worst.error / bound.value)
                              .put("bound", bound.value)
-                             .put("x", worst_x)
-                             .put("y", worst_y)
-                             .put("homogeneous", picture.stats.homogeneous_quads != 0)
+                             .put("x", worst.x)
+                             .put("y", worst.y)
+                             .put("homogeneous", homogeneous)
+                             .put("outside", outside)
+                             .put("undefined", undefined)
                              .text()};
 }
 
 /// Of the nearest fragment which face it is, and which rule decided; brighter where several fragments lie.
 View coverage_view(const Drawing& drawing) {
   const Config& config = drawing.request.config;
-  const DrawState state = weights_state(drawing);
+  const auto [state, quads] = bare_quads(drawing);
   struct Pixel {
     std::uint32_t depth = 0xffffffff;
     int count = 0;
@@ -196,8 +172,8 @@ View coverage_view(const Drawing& drawing) {
   const int width = drawing.request.width;
   std::vector<Pixel> pixels(static_cast<std::size_t>(width * drawing.request.height));
   UntimedModel model(config, state);
-  for (std::size_t i = 0; i < drawing.quads.size(); ++i)
-    model.draw_arrays(snapped(drawing, i, state), [&](const FragmentArrays& f) {
+  for (const SnappedQuad& quad : quads)
+    model.draw_arrays(quad, [&](const FragmentArrays& f) {
       for (std::size_t n = 0; n < f.size; ++n) {
         Pixel& pixel = pixels[static_cast<std::size_t>(f.place[n].y * width + f.place[n].x)];
         ++pixel.count;
@@ -234,9 +210,7 @@ View coverage_view(const Drawing& drawing) {
 /// The clock in which each fragment leaves the clocked machine; with `tiles` which tile it was of, in their order.
 View clocks_view(const Drawing& drawing) {
   const Config& config = drawing.request.config;
-  const DrawState state = weights_state(drawing);
-  std::vector<SnappedQuad> quads;
-  for (std::size_t i = 0; i < drawing.quads.size(); ++i) quads.push_back(snapped(drawing, i, state));
+  const auto [state, quads] = bare_quads(drawing);
   const int width = drawing.request.width;
   std::vector<std::uint64_t> left(static_cast<std::size_t>(width * drawing.request.height));
   DrivenModel machine(config, state);
@@ -271,13 +245,53 @@ View clocks_view(const Drawing& drawing) {
 
 View draw_view(const Drawing& drawing) {
   const std::string& view = drawing.request.view;
-  if (view == "exact") return by_reference<golden::TruthQuad>(drawing);
-  if (view == "fp32") return by_reference<golden::PaperFp32Quad>(drawing);
-  if (view == "error") return error_view(drawing);
+  if (view == "exact") return exact_view(drawing);
+  if (view == "error") {
+    const Picture picture = draw_picture(drawing, Values::weights);
+    return error_view(drawing, picture.image, picture.stats.homogeneous_quads != 0);
+  }
   if (view == "coverage") return coverage_view(drawing);
   if (view == "tiles") return tiles_view(drawing);
   if (view == "clocks") return clocks_view(drawing);
   return by_method(drawing, view);
+}
+
+std::vector<float> shader_quads(const Drawing& drawing) {
+  const Config& config = drawing.request.config;
+  const BareQuads bare = bare_quads(drawing);
+  std::vector<float> out;
+  for (const SnappedQuad& quad : bare.quads) {
+    const double base = std::ldexp(static_cast<double>(quad.base.depth), -config.depth_bits);
+    const auto each = [&](auto&& number) {
+      for (const SnappedVertex& v : quad.vertex) out.push_back(static_cast<float>(number(v)));
+    };
+    const auto real = [&](std::int32_t code) { return std::ldexp(static_cast<double>(code), -config.frac()); };
+    const auto port = [&](const PortNumber& n) { return golden::port_value(n, config.significand_bits); };
+    each([&](const SnappedVertex& v) { return real(v.x); });
+    each([&](const SnappedVertex& v) { return real(v.y); });
+    each([&](const SnappedVertex& v) { return real(v.w); });
+    each([&](const SnappedVertex& v) { return bare.state.perspective ? port(v.k) : real(v.w); });
+    each([&](const SnappedVertex& v) { return port(v.z) + base * real(v.w); });
+  }
+  return out;
+}
+
+View shader_view(const Drawing& drawing, std::span<const float> pixels) {
+  const bool error = drawing.request.view.ends_with("_error");
+  RealPicture picture(drawing, error ? Values::weights : values_of(drawing));
+  const std::size_t half = pixels.size() / 2;
+  for (int y = 0; y < drawing.request.height; ++y)
+    for (int x = 0; x < drawing.request.width; ++x) {
+      const auto at = static_cast<std::size_t>(4 * (y * drawing.request.width + x));
+      const float* weights = &pixels[at];
+      const float* seen = &pixels[half + at];
+      if (seen[0] == 0) continue;
+      std::array<double, 4> lambda{weights[0], weights[1], weights[2], weights[3]};
+      const bool finite = std::isfinite(seen[1]) && std::ranges::all_of(lambda, [](double l) { return std::isfinite(l); });
+      if (!finite && !error) lambda = {};  // no shading takes them
+      picture.add(static_cast<std::size_t>(seen[0]) - 1, x, y, seen[2] < 0, !finite, seen[1], lambda);
+    }
+  return error ? error_view(drawing, picture.image(), false) : picture.view();
 }
 
 }  // namespace quadrille::page

@@ -24,7 +24,7 @@ function hover(name, row, columns) {
 function pin(box, row) {
   const i = at.get(row);
   const values = Object.keys(D.values).map(column => `<tr><td>${D.titles[column]}</td><td>${shown(column, D.values[column][i])}</td></tr>`).join("");
-  box.innerHTML = `<b>Row ${row}</b>: <code>${escape(D.words[i].join(", "))}</code> <button type="button">close</button>` +
+  box.innerHTML = `<b>Row ${row}</b>: <code>${escape(D.words[i].join(", "))}</code> <a href="${escape(D.page + D.keys[i])}">draw with it</a> <button type="button">close</button>` +
     (D.worst[i] ? `<br>Its worst fragment: <code>${escape(D.worst[i])}</code>` : "") +
     `<details><summary>All values</summary><table><tbody>${values}</tbody></table></details>`;
   box.querySelector("button").onclick = () => { box.innerHTML = ""; };

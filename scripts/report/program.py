@@ -15,6 +15,18 @@ def options(doc, **more):
     return argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter, **more)
 
 
+def _page(argument):
+    if "#" in argument:
+        raise argparse.ArgumentTypeError(f"'{argument}' has a #, behind which a link puts what it opens")
+    return argument
+
+
+def page_option(parser, default):
+    parser.add_argument("--page", metavar="URL", type=_page, default=default,
+                        help="address of the page of model/page (cmake --build build/release --target page), from the written file or absolute; links open it "
+                             "with what they stand for (default: %(default)s)")
+
+
 def end(main):
     """Ends the script with the status that `main` returns, or with that of its exception and the message. SIGTERM ends it as an exception
     does, so that temporary folders go."""

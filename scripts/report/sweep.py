@@ -41,7 +41,9 @@ class Sweep:
     configuration or None. one_key: for each axis the points that differ from the base in this key alone, the base among them.
     """
 
-    def __init__(self, directory):
+    def __init__(self, directory, page):
+        self.page = page
+
         def path(name):
             return os.path.join(directory, name)
 
@@ -137,3 +139,15 @@ class Sweep:
             changed = [key for key in self.axes if i in self.one_key[key] and i != self.base]
             return [f"{key} = {self.value[key][i]:g}" for key in changed] or ["base configuration"]
         return [f"{key} = {self.value[key][i]:g}" for key in self.axes]
+
+    def address(self):
+        """Of the page, with the scene, if it is one, and every key of the configuration that is not automatic."""
+        scene, other = self.manifest["input"], re.search(r" --(mesh|quads|stress|corner)\b", self.manifest["command"])
+        words = {} if other or not re.fullmatch(r"\w+", scene) else {"preset": scene}
+        words |= {"size": self.manifest["size"]} if max(self.size) <= 1024 else {}  # the page's limit
+        words |= {key: value for key, value in self.manifest["config"].items() if value != -1}
+        return f"{self.page}#{'&'.join(f'{key}={value}' for key, value in words.items())}"
+
+    def address_keys(self, i):
+        """Those of a point: what follows replaces what came before."""
+        return "".join(f"&{key}={self.value[key][i]:g}" for key in self.axes)

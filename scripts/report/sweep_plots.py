@@ -131,7 +131,7 @@ def points_table(sweep, named):
     errors = list(dict.fromkeys([sweep.objective, total]))
     luts = dict(zip(sweep.synth["point"], sweep.synth["luts"])) if sweep.synth else {}
     head = ["", "row", "configuration", *map(error_title, errors), "cost", "LUT", "FF", "DSP", "BRAM", "pixels per clock"]
-    lines = [[what, sweep.rows[i], ", ".join(sweep.words(i)), *(power(sweep.value[column][i]) for column in errors),
+    lines = [[what, f"<a href='{escape(sweep.address() + sweep.address_keys(i))}'>{sweep.rows[i]}</a>", ", ".join(sweep.words(i)), *(power(sweep.value[column][i]) for column in errors),
               *(count(sweep.value[column][i]) for column in TAKES[:-1]), rate(sweep.value[TAKES[-1]][i])] for what, i in named]
     if luts:
         head.append("LUTs synthesized")

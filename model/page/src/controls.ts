@@ -1,5 +1,6 @@
 // The settings beside the pictures.
 import type { Configuration, Drawn, Key, Lists } from "./model";
+import { short_name } from "./state";
 
 export const element = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
 
@@ -24,6 +25,28 @@ export function fill_scenes(select: HTMLSelectElement, lists: Lists) {
   select.replaceChildren(...groups.values());
 }
 
+/** A figure of each kind that the papers have, one click away. */
+export const presets: [string, string][] = [
+  ["convex", "fig10_convex"],
+  ["concave", "fig10_concave"],
+  ["bow-tie", "fig10_crossed"],
+  ["exterior", "fig9_e"],
+  ["behind the eye", "fig8_behind"],
+  ["sphere cap", "bloomenthal13_dense"],
+  ["Phong", "phong_mesh"],
+];
+
+export function fill_presets(box: HTMLElement, choose: (scene: string) => void) {
+  for (const [text, scene] of presets) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = text;
+    button.dataset.scene = scene;
+    button.addEventListener("click", () => choose(scene));
+    box.append(button);
+  }
+}
+
 /** The keys that a viewer sees act, in the order of the machine. */
 const slider_keys = [
   "significand_bits",
@@ -38,11 +61,13 @@ const slider_keys = [
   "depth_bits",
 ];
 
+/** Of rtl/configurations, by build.sh: the aim and the keys of each. */
+declare const configurations: Record<string, { aim: string; keys: Record<string, number> }>;
+
 export const named_configurations: [string, Record<string, number>][] = [
   ["default", {}],
-  ["narrow: s = 12", { significand_bits: 12 }],
-  ["smallest: s = 8", { significand_bits: 8 }],
-  ["wide: s = 24", { significand_bits: 24 }],
+  ...Object.entries(configurations).map(([name, { aim, keys }]) => [`${name}: ${aim}`, keys] as [string, Record<string, number>]),
+  ["coarse: s = 8", { significand_bits: 8 }],
   ["coarse grid: 2 sub-pixel bits", { subpixel_bits: 2 }],
   ["tables of degree 1", { sqrt_degree: 1, recip_degree: 1 }],
 ];
@@ -57,6 +82,10 @@ export class Sliders {
       row.className = "slider";
       const label = document.createElement("label");
       label.textContent = name;
+      const short = document.createElement("span");
+      short.className = "quiet";
+      short.textContent = ` ${short_name(name)}`;
+      label.append(short);
       label.htmlFor = `key_${name}`;
       label.title = key.meaning;
       const output = document.createElement("output");

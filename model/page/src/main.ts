@@ -1,17 +1,19 @@
 // The page: a state, two workers that draw it, and what changes it.
-import { element, fill_options, fill_scenes, named_configurations, show_costs, show_stats, Sliders } from "./controls";
+import { element, fill_options, fill_presets, fill_scenes, named_configurations, show_costs, show_stats, Sliders } from "./controls";
 import { Drag } from "./drag";
 import { Latest, Model, type Configuration, type Drawn, type Lists } from "./model";
-import { command_line, config_of, parse_state, request_text, state_text, toml_text, view_text, without_view, pixel_text, type State } from "./state";
+import { command_line, config_of, config_text, parse_state, request_text, state_text, toml_text, view_text, made_short, without_view, pixel_text, type State } from "./state";
 import { show_explained, type Explained } from "./pixel";
 import { Stepping } from "./step";
 import { show_sweep, type Point } from "./sweep";
-import { difference, is_picture, legend, show_legend, views } from "./views";
+import { difference, is_picture, is_shader, legend, show_legend, views } from "./views";
 import type { Answer } from "./worker";
 
 const machine = new Model();
 const study = new Model();
 let state: State = parse_state(location.hash);
+/** Of the address, once there are lists. */
+const read_state = () => made_short(parse_state(location.hash), lists);
 let drawn: Drawn | null = null;
 let lists: Lists;
 let sliders: Sliders;
@@ -79,7 +81,7 @@ function paint_compared() {
   const size = size_of(state);
   let bytes = compared.bytes;
   if (bytes.byteLength !== 4 * size[0] * size[1]) return;
-  if (state.values.has("difference") && is_picture(state.values.get("view") ?? "error") && picture.bytes.byteLength === bytes.byteLength)
+  if (state.values.get("difference") === "1" && is_picture(state.values.get("view") ?? "error") && picture.bytes.byteLength === bytes.byteLength)
     bytes = difference(new Uint8ClampedArray(picture.bytes), new Uint8ClampedArray(bytes), 16).buffer as ArrayBuffer;
   paint(element<HTMLCanvasElement>("beside"), size, bytes);
   document.body.dataset.compared = compared.text;
@@ -135,7 +137,7 @@ let address_timer = 0;
 let address = location.hash;
 function show_state() {
   draw.ask(request_text(state));
-  configure.ask(config_of(state).map(([key, value]) => `${key}=${value}`).join("\n"));
+  configure.ask(config_text(state));
   const scene = [...lists.scenes, ...lists.workloads].find((s) => s.name === state.values.get("scene"));
   element("title").textContent = scene ? `${scene.title} (${scene.paper})` : "";
   element<HTMLSelectElement>("scene").value = scene?.name ?? "";
@@ -150,10 +152,14 @@ function show_state() {
   for (const [i, id] of ["pixel_x", "pixel_y"].entries())
     if (document.activeElement?.id !== id) element<HTMLInputElement>(id).value = pixel ? String(pixel[i]) : "";
   const view = state.values.get("view") ?? "error";
-  element<HTMLSelectElement>("view").value = view;
-  element<HTMLInputElement>("difference").checked = state.values.has("difference");
+  const view_select = element<HTMLSelectElement>("view");
+  if (![...view_select.options].some((option) => option.value === view)) view_select.add(new Option(view));  // a method with a knob
+  view_select.value = view;
+  const shown = element<HTMLSelectElement>("difference"), of_picture = state.values.get("difference") ?? "";
+  shown.options[2].hidden = !is_shader(view);
+  shown.value = of_picture === "error" && !is_shader(view) ? "" : of_picture;
   element("difference_label").hidden = !is_picture(view);
-  element("beside_figure").hidden = view === "";
+  element("beside_stage").hidden = element("legend").hidden = view === "";
   element("beside_figure").parentElement!.classList.toggle("one", view === "");
   // Browsers allow few changes of an address a second.
   clearTimeout(address_timer);
@@ -225,13 +231,15 @@ async function copy(text: string, what: string) {
 function listen() {
   const on_change = (id: string, act: (target: HTMLSelectElement & HTMLInputElement) => void) =>
     element(id).addEventListener("change", (event) => act(event.target as HTMLSelectElement & HTMLInputElement));
-  on_change("scene", (select) => {
+  const choose_scene = (name: string) => {
     const values = new Map(without_view(state).values);
-    values.set("scene", select.value);
+    values.set("scene", name);
     for (const key of ["shade", "texture", "perspective", "cull"]) values.delete(key);
     state = { values };
     show_state();
-  });
+  };
+  on_change("scene", (select) => choose_scene(select.value));
+  fill_presets(element("presets"), choose_scene);
   for (const key of ["shade", "texture", "cull"]) on_change(key, (select) => change([key, select.value]));
   on_change("view", (select) => change(["view", select.value]));
   element("pixel_form").addEventListener("submit", (event) => event.preventDefault());
@@ -239,8 +247,8 @@ function listen() {
     const at = ["pixel_x", "pixel_y"].map((id) => element<HTMLInputElement>(id).value || "0");
     change(["pixel", at.join(",")]);
   });
-  on_change("difference", (box) => {
-    change(["difference", box.checked ? "1" : null]);
+  on_change("difference", (select) => {
+    change(["difference", select.value || null]);
     paint_compared();
   });
   element("own").addEventListener("change", async (event) => {
@@ -282,7 +290,7 @@ function listen() {
   on_click("save_toml", () => save("page.toml", toml_text(state), "text/plain"));
   window.addEventListener("hashchange", () => {
     address = location.hash;
-    state = parse_state(address);
+    state = read_state();
     show_state();
   });
 }
@@ -293,11 +301,13 @@ async function start() {
   const answer = await machine.call("lists");
   if (answer.error) return show_error(answer.error);
   lists = answer.result as unknown as Lists;
+  state = read_state();
   fill_scenes(element("scene"), lists);
   fill_options(element("shade"), ["texture", "uv", "normal", "lambda", "depth", "quad", "planes", "colour"].map((s) => [s, s]));
-  fill_options(element("texture"), ["checker", "fine", "globe", "own"].map((s) => [s, s]));
+  fill_options(element("texture"), [["checker", "checkers"], ["fine", "fine checkers"], ["grid", "grid"], ["globe", "globe"], ["own", "own picture"]]);
   fill_options(element("cull"), ["none", "front", "back"].map((s) => [s, s]));
   fill_options(element("view"), views);
+  fill_options(element("difference"), [["", "the picture"], ["1", "difference × 16"], ["error", "error against exact, by the bound"]]);
   fill_options(element("named"), [["", "own"], ...named_configurations.map(([name]) => [name, name] as [string, string])]);
   sliders = new Sliders(element("sliders"), lists.keys, (key, value) => change([key, value]));
   listen();
@@ -310,6 +320,8 @@ Object.assign(window, {
     call: (name: string, text: string) => machine.call(name, text),
     frames: () => frames,
     hash: () => state_text(state),
+    request: () => request_text(state),
+    config: () => config_text(state),
     settled: () => drawn !== null && !draw.busy && !configure.busy,
     all_settled: () => drawn !== null && !draw.busy && !configure.busy && !look.busy && !explain.busy && !sweep.busy,
   },

@@ -1,5 +1,6 @@
 // Everything that the page shows, in the words of a request; its address and the program's command line.
-import type { Drawn } from "./model";
+import type { Drawn, Lists } from "./model";
+import { is_shader } from "./views";
 
 export interface State {
   /** Keys in their order, as in the address. */
@@ -14,6 +15,25 @@ const vertex_key = /^v\d+$/;
 
 export const default_scene = "fig10_convex";
 
+/** The address has these; it may have the long names too. */
+const short_names = new Map([
+  ["scene", "preset"],
+  ["significand_bits", "s"],
+  ["subpixel_bits", "subpixel"],
+  ["homogeneous_frac_bits", "frac"],
+  ["quadratic_frac_bits", "quadratic"],
+  ["guard_bits", "guard"],
+  ["align_guard_bits", "align"],
+  ["sqrt_segments_log2", "sqrt"],
+  ["recip_segments_log2", "recip"],
+  ["attribute_frac_bits", "attr"],
+  ["depth_bits", "z"],
+]);
+const long_names = new Map([...short_names].map(([long, short]) => [short, long]));
+export const short_name = (key: string) => short_names.get(key) ?? key;
+/** Vertices 0 to 3 are one value of the address: `quad=X,Y,Z;…`, those that are not moved empty. */
+const quad_keys = ["v0", "v1", "v2", "v3"];
+
 /** Of a location's hash. */
 export function parse_state(hash: string): State {
   const values = new Map<string, string>();
@@ -21,19 +41,21 @@ export function parse_state(hash: string): State {
     if (part === "") continue;
     const at = part.indexOf("=");
     const key = at < 0 ? part : part.slice(0, at);
-    values.set(key, at < 0 ? "1" : decodeURIComponent(part.slice(at + 1)));
+    const value = at < 0 ? "1" : decodeURIComponent(part.slice(at + 1));
+    if (key !== "quad") values.set(long_names.get(key) ?? key, value);
+    else value.split(";").forEach((position, i) => position && values.set(quad_keys[i] ?? `v${i}`, position));
   }
   if (!values.has("scene")) values.set("scene", default_scene);
   return { values };
 }
 
 export function state_text(state: State): string {
-  return (
-    "#" +
-    [...state.values]
-      .map(([key, value]) => `${key}=${encodeURIComponent(value).replace(/%2C/g, ",")}`)
-      .join("&")
-  );
+  const values = new Map<string, string>();
+  for (const [key, value] of state.values)
+    if (!quad_keys.includes(key)) values.set(short_name(key), value);
+    else values.set("quad", quad_keys.map((k) => state.values.get(k) ?? "").join(";").replace(/;+$/, ""));
+  const text = (value: string) => encodeURIComponent(value).replace(/%2C/g, ",").replace(/%3B/g, ";").replace(/%3A/g, ":");
+  return "#" + [...values].map(([key, value]) => (key === "embed" ? key : `${key}=${text(value)}`)).join("&");
 }
 
 export function request_text(state: State): string {
@@ -43,10 +65,21 @@ export function request_text(state: State): string {
     .join("\n");
 }
 
+/** `fig10` is the first scene of that beginning; a key with its standard value is not set. */
+export function made_short(state: State, lists: Lists): State {
+  const values = new Map(state.values), scenes = [...lists.scenes, ...lists.workloads].map((s) => s.name);
+  const scene = values.get("scene")!;
+  if (!scenes.includes(scene)) values.set("scene", scenes.find((name) => name.startsWith(`${scene}_`)) ?? scene);
+  for (const key of lists.keys) if (values.get(key.name) === String(key.standard)) values.delete(key.name);
+  return { values };
+}
+
 /** What stands beside the machine's picture; null where nothing does. */
 export function view_text(state: State): string | null {
   const view = state.values.get("view") ?? "error";
-  return view === "" || view === "machine" ? null : `${request_text(state)}\nview=${view}`;
+  if (view === "" || view === "machine") return null;
+  const error = is_shader(view) && state.values.get("difference") === "error";
+  return `${request_text(state)}\nview=${view}${error ? "_error" : ""}`;
 }
 
 /** The pixel that is taken apart; null: none is. */
@@ -61,6 +94,8 @@ export function config_of(state: State): [string, string][] {
     ([key]) => !page_keys.has(key) && !draw_keys.has(key) && !vertex_key.test(key),
   );
 }
+
+export const config_text = (state: State) => config_of(state).map(([key, value]) => `${key}=${value}`).join("\n");
 
 export function without_view(state: State): State {
   const values = new Map(state.values);

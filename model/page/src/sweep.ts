@@ -56,7 +56,9 @@ export function show_sweep(plot: SVGSVGElement, points: Point[], now: number, ch
     dot.append(shape("title", {}, dot.getAttribute("aria-label")!));
     dot.addEventListener("click", () => choose(p.significand_bits));
     dot.addEventListener("keydown", (event) => {
-      if ((event as KeyboardEvent).key === "Enter") choose(p.significand_bits);
+      if (!["Enter", " "].includes((event as KeyboardEvent).key)) return;
+      event.preventDefault();
+      choose(p.significand_bits);
     });
     parts.push(dot);
   }

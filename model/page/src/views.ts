@@ -12,7 +12,8 @@ export const views: [string, string][] = [
   ["refine", "refined 20 × 20"],
   ["twofold", "linear along edges, then along rows"],
   ["adaptive", "adaptive subdivision"],
-  ["fp32", "paper's formulas in fp32"],
+  ["fp32", "paper's formulas in fp32 (WebGL2)"],
+  ["fp32_determinant", "determinant form in fp32 (WebGL2)"],
   ["coverage", "coverage, ties and notches"],
   ["tiles", "tiles by what became of them"],
   ["clocks", "clock of each pixel"],
@@ -21,17 +22,26 @@ export const views: [string, string][] = [
 
 /** Those that are pictures of the same quads, and so may be compared by colour. */
 export const is_picture = (view: string) => !["", "error", "coverage", "tiles", "clocks", "machine"].includes(view);
+/** A shader draws them, whose weights can be judged like the machine's. */
+export const is_shader = (view: string) => view.startsWith("fp32");
+
+const share = (value: number) => (value >= 0.001 ? value.toFixed(3) : power_of_two(value));
 
 export function legend(view: string, result: Record<string, unknown>): [string, string][] {
   const count = (name: string) => (result[name] as number).toLocaleString("en");
-  switch (view) {
+  switch (view.replace(/^fp32.*_error$/, "error")) {
     case "error": {
-      const worst = result.worst as number;
-      const limit = result.bound === null ? "no bound" : `bound ${power_of_two(result.bound as number)}`;
-      const where = worst > 0 ? ` (${worst.toFixed(3)} of it at pixel ${result.x}, ${result.y})` : "";
+      const worst = result.worst as number, bound = result.bound as number | null;
+      const limit = bound === null ? "no bound" : `the machine's bound is ${power_of_two(bound)}`;
+      const where = worst > 0 && bound !== null ? `; worst error ${power_of_two(worst * bound)}, ${share(worst)} of it, at pixel ${result.x}, ${result.y}` : "";
+      const apart: [string, string][] = [
+        ["#ff00ff", `the formulas divide by zero ${count("undefined")}`],
+        ["#d65e00", `not covered by exact arithmetic ${count("outside")}`],
+      ];
       return [
         ["scale", "2^−8 of the bound or less … the bound"],
-        ["", `${limit}; worst weight${where}`],
+        ["", `${limit}${where}`],
+        ...apart.filter((_, i) => result[i ? "outside" : "undefined"] !== 0),
       ];
     }
     case "coverage":

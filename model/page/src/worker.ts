@@ -1,4 +1,5 @@
 // Runs the model in WebAssembly: a call with a request in, its answer out.
+import { shader_pixels, type ShaderState } from "./shader";
 
 interface Model {
   memory: WebAssembly.Memory;
@@ -44,28 +45,46 @@ const loading = (async (): Promise<Model> => {
   return model;
 })();
 
-async function answer({ id, call, text: request_text, picture, numbers = [] }: Call): Promise<Answer> {
+/** One call of the module. `input`: what it reads. */
+function run(model: Model, call: string, input: Uint8Array, numbers: number[]) {
+  const place = model.input(input.length);  // may move the memory
+  new Uint8Array(model.memory.buffer, place, input.length).set(input);
+  const failed = (model[call] as (...numbers: number[]) => number)(...numbers);
+  const words = new Uint8Array(model.memory.buffer, model.result(), model.result_size());
+  // Integers that are no doubles stay text.
+  const text = new TextDecoder().decode(words).replace(/(: )(-?\d{16,})(?=[,}])/g, '$1"$2"');
+  const result = JSON.parse(text);
+  if (failed) throw new Error(result.error);
+  return { result, bytes: model.memory.buffer.slice(model.bytes(), model.bytes() + model.bytes_size()) as ArrayBuffer };
+}
+
+async function answer({ id, call, text, picture, numbers = [] }: Call): Promise<Answer> {
   try {
     const model = await loading;
-    const request = picture?.bytes ?? new TextEncoder().encode(request_text);
-    const place = model.input(request.length);  // may move the memory
-    new Uint8Array(model.memory.buffer, place, request.length).set(request);
     const start = performance.now();
-    const failed = (model[call] as (...numbers: number[]) => number)(...(picture ? [picture.width] : numbers));
-    const time = performance.now() - start;
-    const words = new Uint8Array(model.memory.buffer, model.result(), model.result_size());
-    // Integers that are no doubles stay text.
-    const text = new TextDecoder().decode(words).replace(/(: )(-?\d{16,})(?=[,}])/g, '$1"$2"');
-    const result = JSON.parse(text);
-    if (failed) return { id, time, error: result.error };
-    const bytes = model.memory.buffer.slice(model.bytes(), model.bytes() + model.bytes_size());
-    return { id, time, result, bytes: bytes as ArrayBuffer };
+    const request = new Uint8Array(picture?.bytes ?? new TextEncoder().encode(text));
+    // `shader` gives the numbers of a view `fp32` themselves.
+    const by_shader = ["view", "shader"].includes(call) && text.match(/^view=fp32(_determinant)?/m);
+    let made;
+    if (by_shader) {
+      const quads = run(model, "shader_quads", request, []), vertices = new Float32Array(quads.bytes);
+      const pixels = await shader_pixels(by_shader[1] ? "determinant" : "printed", vertices, quads.result as ShaderState);
+      if (call === "view") made = run(model, "shader_view", new Uint8Array(pixels.buffer), []);
+      else made = { result: { ...quads.result, vertices: [...vertices] }, bytes: pixels.buffer as ArrayBuffer };
+    } else {
+      made = run(model, call, request, picture ? [picture.width] : numbers);
+    }
+    return { id, time: performance.now() - start, ...made };
   } catch (error) {
-    return { id, time: 0, error: String(error) };
+    return { id, time: 0, error: error instanceof Error ? error.message : String(error) };
   }
 }
 
-self.onmessage = async (event: MessageEvent<Call>) => {
-  const reply = await answer(event.data);
-  (self as unknown as Worker).postMessage(reply, reply.bytes ? [reply.bytes] : []);
+/** One call after the other. */
+let last = Promise.resolve();
+self.onmessage = (event: MessageEvent<Call>) => {
+  last = last.then(async () => {
+    const reply = await answer(event.data);
+    (self as unknown as Worker).postMessage(reply, reply.bytes ? [reply.bytes] : []);
+  });
 };

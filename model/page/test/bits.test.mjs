@@ -1,7 +1,7 @@
 // The page draws the program's bits.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { launch, open, page_fragments, program_fragments, serve, table_fragments } from "./support.mjs";
+import { drawn, launch, open, page_fragments, program, program_fragments, run, serve, table_fragments } from "./support.mjs";
 
 let server, browser, opened;
 before(async () => {
@@ -28,6 +28,35 @@ test("every figure has the program's fragments", async () => {
     const theirs = table_fragments(csv);
     assert.ok(ours.fragments > 100, name);
     assert.deepEqual(ours, theirs, name);
+  }
+});
+
+test("and the named configurations, which draw a texture too", async () => {
+  const { page } = opened;
+  const { stdout } = await run(program, ["config", "--list"]);
+  const names = [...stdout.matchAll(/^ *(\w+) /gm)].map(([, name]) => name).filter((name) => stdout.includes(`${name} `));
+  const options = await page.$$eval("#named option", (all) => all.map((o) => o.value));
+  assert.ok(names.length >= 4, stdout);
+  for (const name of names) {
+    const option = options.find((value) => value.startsWith(`${name}: `));
+    assert.ok(option, `${name} is offered`);
+    await page.selectOption("#named", option);
+    await drawn(page);
+    assert.equal(await page.isVisible("#error"), false, name);
+    assert.equal(await page.inputValue("#named"), option);
+    const { stdout: printed } = await run(program, ["config", "--config", name, "--json", "-"]);
+    const { config } = JSON.parse(printed), text = await page.evaluate(() => window.quadrille.request());
+    const set = Object.entries(config).map(([key, value]) => `${key}=${value === -1 ? "auto" : value}`);
+    const csv = await program_fragments(["--scene", "fig10_convex", "--config", name]);
+    const ours = await page_fragments(page, text);
+    assert.deepEqual(ours, await page_fragments(page, ["scene=fig10_convex", ...set].join("\n")), name);
+    assert.deepEqual(ours, table_fragments(csv, 24, config.depth_bits), name);
+    // In passes where there are more attributes than slots: all of it is the quad's texture.
+    const colours = await page.evaluate(() => {
+      const canvas = document.getElementById("machine"), { data } = canvas.getContext("2d").getImageData(0, 0, 512, 512);
+      return new Set(new Uint32Array(data.buffer)).size;
+    });
+    assert.ok(colours > 1000, `${name}: ${colours} colours`);
   }
 });
 

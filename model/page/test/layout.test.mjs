@@ -33,6 +33,11 @@ for (const width of [400, 1400])
           .map((e) => e.id || e.tagName);
       });
       assert.deepEqual(overflow, []);
+      const beyond_panel = await page.$$eval("fieldset, .pixel, header", (panels) =>
+        panels.flatMap((panel) => [...panel.querySelectorAll("*")]
+          .filter((e) => e.checkVisibility() && !e.closest("svg, .hidden, .wide") && e.getBoundingClientRect().right > panel.getBoundingClientRect().right)
+          .map((e) => e.id || e.tagName)));
+      assert.deepEqual(beyond_panel, []);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
       // Text against what is behind it, by WCAG's formula.
       const contrast = await page.evaluate(() => {
@@ -59,6 +64,58 @@ for (const width of [400, 1400])
       await close();
       assert.deepEqual(problems, []);
     });
+
+test("both pictures lie side by side, also as pictures of a slide", async () => {
+  for (const [hash, width] of [["#preset=fig10_convex&view=fp32", 1400], ["#preset=fig10_convex&view=split02", 1000], ["#preset=fig10_convex&view=split02&embed", 800]]) {
+    const { page, close } = await open(browser, server.address, hash, { viewport: { width, height: 900 } });
+    await all_settled(page);
+    const [a, b] = [await page.locator("#machine").boundingBox(), await page.locator("#beside").boundingBox()];
+    assert.ok(a.y === b.y && a.height === b.height && a.x + a.width < b.x, `${hash}: ${JSON.stringify([a, b])}`);
+    await close();
+  }
+});
+
+test("colours of a legend differ to colour-blind eyes too", async () => {
+  const { page, close } = await open(browser, server.address, "#preset=fig10_crossed");
+  const client = await page.context().newCDPSession(page);
+  for (const view of ["coverage", "tiles"]) {
+    await page.selectOption("#view", view);
+    await page.waitForFunction((name) => document.body.dataset.compared?.endsWith(`view=${name}`), view);
+    for (const type of ["none", "protanopia", "deuteranopia", "tritanopia"]) {
+      await client.send("Emulation.setEmulatedVisionDeficiency", { type });
+      const colours = [];
+      for (const swatch of await page.locator("#legend .swatch").all()) {
+        const shot = (await swatch.screenshot()).toString("base64");
+        colours.push(await page.evaluate(async (base64) => {
+          const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+          const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+          context.drawImage(bitmap, 0, 0);
+          return [...context.getImageData(bitmap.width >> 1, bitmap.height >> 1, 1, 1).data].slice(0, 3);
+        }, shot));
+      }
+      assert.ok(colours.length >= 4);
+      // In CIE's L*a*b*, where a difference of 2.3 is just seen; of areas apart several of these.
+      const lab = colours.map(to_lab);
+      for (let i = 0; i < lab.length; i++)
+        for (let j = 0; j < i; j++) {
+          const apart = Math.hypot(...[0, 1, 2].map((c) => lab[i][c] - lab[j][c]));
+          assert.ok(apart > 4 * 2.3, `${view}, ${type}: ${colours[i]} and ${colours[j]} are ${apart.toFixed(1)} apart`);
+        }
+    }
+  }
+  await close();
+});
+
+/** Of sRGB, D65. */
+function to_lab(rgb) {
+  const [r, g, b] = rgb.map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+  const [x, y, z] = [
+    (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505,
+    0.2126 * r + 0.7152 * g + 0.0722 * b,
+    (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089,
+  ].map((t) => (t > (6 / 29) ** 3 ? Math.cbrt(t) : t / (3 * (6 / 29) ** 2) + 4 / 29));
+  return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}
 
 test("every control has a name", async () => {
   const { page, close } = await open(browser, server.address);

@@ -4,7 +4,7 @@ import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
-import { launch, open, page_fragments, program, program_fragments, run, serve, table_fragments } from "./support.mjs";
+import { drawn, launch, open, page_fragments, program, program_fragments, run, serve, table_fragments } from "./support.mjs";
 
 let server, browser, folder;
 before(async () => {
@@ -77,8 +77,8 @@ for (const [hash, same_picture] of states)
     assert.deepEqual(problems, []);
   });
 
-test("a link opens the same page", async () => {
-  const hash = "#scene=fig10_crossed&yaw=12.25&v2=1,0.9,0.3&significand_bits=11&view=split02&difference=1&theme=dark&shade=lambda";
+test("a link opens the same page, and is short", async () => {
+  const hash = "#preset=fig10_crossed&yaw=12.25&quad=;;1,0.9,0.3&s=11&quadratic=20&view=split02&difference=1&theme=dark&shade=lambda";
   const first = await open(browser, server.address, hash);
   const link = await click(first.page, "copy_link", "Link copied.");
   assert.equal(link, server.address + hash);
@@ -86,11 +86,42 @@ test("a link opens the same page", async () => {
   assert.equal(await pixels(second.page), await pixels(first.page));
   for (const [id, value] of [["view", "split02"], ["shade", "lambda"], ["key_significand_bits", "11"]])
     assert.equal(await second.page.inputValue(`#${id}`), value);
-  assert.ok(await second.page.isChecked("#difference"));
+  assert.equal(await second.page.inputValue("#difference"), "1");
   assert.equal(await second.page.evaluate(() => document.documentElement.dataset.theme), "dark");
+  // Long names are read, standard values are not written; a beginning names the first scene that has it.
+  for (const [long, short] of [
+    ["#scene=fig10_crossed&yaw=12.25&v2=1,0.9,0.3&significand_bits=11&quadratic_frac_bits=20&view=split02&difference=1&theme=dark&shade=lambda", hash],
+    ["#scene=sphere&significand_bits=18&guard_bits=2&tile_log2=3&subpixel_bits=8", "#preset=sphere&guard=2"],
+    ["#quad=0,0,0;1,0,0.5;;-1,2,0.25&s=12&preset=fig10", "#quad=0,0,0;1,0,0.5;;-1,2,0.25&s=12&preset=fig10_convex"],
+    ["#v5=1,2,3&embed&preset=sphere", "#v5=1,2,3&embed&preset=sphere"],
+    ["#s=12", "#s=12&preset=fig10_convex"],
+  ]) {
+    await second.page.goto("about:blank");
+    await second.page.goto(server.address + long);
+    await drawn(second.page);
+    assert.equal(await second.page.evaluate(() => window.quadrille.hash()), short);
+    await second.page.waitForFunction((text) => location.hash === text, short);
+  }
   await first.close();
   await second.close();
   assert.deepEqual([...first.problems, ...second.problems], []);
+});
+
+test("each key of a slider is in the address by its short name", async () => {
+  const { page, problems, close } = await open(browser, server.address, "#preset=fig10_convex&view=");
+  const rows = await page.$$eval("#sliders .slider", (all) =>
+    all.map((row) => ({ id: row.querySelector("input").id, short: row.querySelector("label span").textContent.trim() })));
+  assert.ok(rows.length >= 8 && rows.some(({ short }) => short === "s"));
+  for (const { id, short } of rows) {
+    const value = await page.$eval(`#${id}`, (input) => String(Number(input.value) - 1));
+    await page.locator(`#${id}`).fill(value);
+    const hash = await page.evaluate(() => window.quadrille.hash());
+    assert.ok(hash.split("&").includes(`${short}=${value}`), `${id}: ${hash}`);
+    await page.selectOption("#named", "default");
+    assert.equal(await page.evaluate(() => window.quadrille.hash()), "#preset=fig10_convex&view=");
+  }
+  await close();
+  assert.deepEqual(problems, []);
 });
 
 test("files: quads and a configuration for the program, a picture", async () => {

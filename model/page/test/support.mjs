@@ -18,12 +18,14 @@ const { chromium } = createRequire(join(root, "build/page-tools/"))("playwright-
 
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
 
-/** A plain host of static files. */
-export async function serve() {
+/** A plain host of static files: of the page or, with a folder, of that, and of the page as page/. */
+export async function serve(folder = null) {
   const server = createServer(async (request, response) => {
     const path = new URL(request.url, "http://host").pathname;
+    if (path === "/favicon.ico") return response.writeHead(204).end();
     try {
-      const file = await readFile(join(page_folder, path === "/" ? "index.html" : path));
+      const of_page = folder === null ? path : path.match(/^\/page(\/.*)/)?.[1];
+      const file = await readFile(of_page === undefined ? join(folder, path) : join(page_folder, of_page === "/" ? "index.html" : of_page));
       response.writeHead(200, { "content-type": types[extname(path)] ?? "text/html" }).end(file);
     } catch {
       response.writeHead(404).end();
@@ -33,7 +35,7 @@ export async function serve() {
   return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
 }
 
-const options = { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] };
+const options = { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--enable-unsafe-swiftshader"] };
 export const launch = () => chromium.launch(options);
 
 /** A browser, and the processor time in seconds that the workers of its pages took. */
@@ -62,10 +64,11 @@ export async function launch_watched() {
   return { browser, worker_seconds, close: async () => (await browser.close(), await host.close()) };
 }
 
-/** Opens the page with that hash; `problems` collects what must not happen. */
-export async function open(browser, address, hash = "", options = {}) {
+/** Opens the page with that hash; `problems` collects what must not happen. `prepare`: does more with the context. */
+export async function open(browser, address, hash = "", options = {}, prepare = async () => {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await prepare(context);
   const page = await context.newPage();
   const problems = [];
   page.on("console", (message) => {

@@ -45,7 +45,7 @@ test("a corner follows the pointer", async () => {
   await page.mouse.move(box.x + 300 * scale, box.y + 200 * scale, { steps: 5 });
   await page.mouse.up();
   const state = await values();
-  assert.equal(state.get("v2").split(",").length, 3);
+  assert.equal(state.get("quad").replaceAll(";", "").split(",").length, 3);
   const [nx, ny] = await vertex(2);
   assert.ok(Math.abs(nx - 300) < 1 && Math.abs(ny - 200) < 1, `${nx}, ${ny}`);
   assert.notEqual(await picture(), before);
@@ -91,7 +91,7 @@ test("touch: one finger turns, two come nearer", async () => {
 test("keyboard alone: a corner moves by a sub-pixel step, the picture turns, a figure is chosen", async () => {
   // From the start of the page by Tab to the picture, then to the first corner.
   const at = () => page.evaluate(() => document.activeElement.id || document.activeElement.dataset.vertex);
-  for (let i = 0; i < 10 && (await at()) !== "machine"; i++) await page.keyboard.press("Tab");
+  for (let i = 0; i < 20 && (await at()) !== "machine"; i++) await page.keyboard.press("Tab");
   assert.equal(await at(), "machine");
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("+");
@@ -113,8 +113,29 @@ test("keyboard alone: a corner moves by a sub-pixel step, the picture turns, a f
   await page.focus("#scene");
   await page.keyboard.press("ArrowDown");
   state = await values();
-  assert.equal(state.get("scene"), "fig10_concave");
-  assert.equal(state.has("v0") || state.has("yaw"), false);
+  assert.equal(state.get("preset"), "fig10_concave");
+  assert.equal(state.has("quad") || state.has("yaw"), false);
+});
+
+test("a figure of each kind is one click away", async () => {
+  const seen = new Set([await picture()]);
+  const scenes = await page.$$eval("#presets button", (all) => all.map((button) => button.dataset.scene));
+  assert.ok(scenes.length >= 7);
+  for (const scene of scenes) {
+    await page.click(`#presets [data-scene=${scene}]`);
+    assert.equal((await values()).get("preset"), scene);
+    assert.equal(await page.inputValue("#scene"), scene);
+    seen.add(await picture());
+  }
+  assert.equal(seen.size, scenes.length);  // the first one was there before
+});
+
+test("nothing stands beside the machine's picture, and something again", async () => {
+  assert.equal(await page.isVisible("#beside"), false);
+  await page.selectOption("#view", "exact");
+  await page.locator("#beside").waitFor();
+  await page.selectOption("#view", "");
+  await page.locator("#beside").waitFor({ state: "hidden" });
 });
 
 test("fewer bits: another picture, a wider bound, a smaller machine", async () => {
@@ -124,14 +145,14 @@ test("fewer bits: another picture, a wider bound, a smaller machine", async () =
   const bound = (of) => Number(Object.entries(of).find(([term]) => term.startsWith("error bound"))[1].replace("2^−", ""));
   assert.ok(bound(wide) >= 15 && bound(wide) < 16);
   await page.locator("#key_significand_bits").fill("9");
-  assert.equal((await values()).get("significand_bits"), "9");
+  assert.equal((await values()).get("s"), "9");
   assert.notEqual(await picture(), before);
   const narrow = await costs();
   assert.ok(bound(narrow) >= 6 && bound(narrow) < 7);
   const luts = (of) => Number(of["LUTs (ECP5, estimated)"].replaceAll(",", ""));
   assert.ok(luts(narrow) < luts(wide));
   await page.selectOption("#named", "default");
-  assert.equal((await values()).has("significand_bits"), false);
+  assert.equal((await values()).has("s"), false);
   assert.equal(await picture(), before);
 });
 
@@ -214,6 +235,26 @@ test("tiles are left out and entered as the program counts", async () => {
   }
 });
 
+test("without a network all goes on", async () => {
+  await page.context().setOffline(true);
+  const settled = () => page.waitForFunction(() => window.quadrille.all_settled());
+  await page.click("#presets [data-scene=fig8_behind]");
+  for (const view of await page.$$eval("#view option", (options) => options.map((o) => o.value))) {
+    await page.selectOption("#view", view);
+    await settled();
+    assert.equal(await page.textContent("#view_note"), "", view);
+  }
+  await page.click("#step_one");
+  await page.waitForFunction(() => document.querySelector("#step_list dd").textContent === "1");
+  await page.click("#sweep summary");
+  await page.locator("#front .point").first().waitFor();
+  await page.locator("#pixel_x").fill("250");
+  await page.locator("#pixel_y").fill("300");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.querySelectorAll("#explained details").length > 8);
+  assert.equal(await page.isVisible("#error"), false);
+});
+
 test("a picture of one's own is the texture, and stays here", async () => {
   const before = await picture();
   const png = await page.evaluate(() => {
@@ -251,7 +292,7 @@ test("the sweep: more bits, smaller errors, each within its bound; a point is ch
   await page.click("#sweep summary");
   await page.locator("#front .point").first().focus();
   await page.keyboard.press("Enter");
-  assert.equal((await values()).get("significand_bits"), "8");
+  assert.equal((await values()).get("s"), "8");
   await page.waitForFunction(() => document.querySelector("#front .now")?.getAttribute("aria-label").startsWith("s = 8:"));
 });
 

@@ -1,6 +1,6 @@
 #include "tb/studies/shader/quad_shader_source.hpp"
 
-#include "tb/studies/shader/mean_value_quad_glsl.hpp"
+#include "tb/studies/shader/golden_glsl.hpp"
 
 #include <algorithm>
 
@@ -130,28 +130,24 @@ const vec4 w = vec4(1.0);
 #define w vw
 #endif
 float facing;
-// The pseudo-code of section 4.2.
-vec4 weights(vec2 p) {
 #if FORM == PRINTED
-  vec4 sx = vx - p.x, sy = vy - p.y;
-  vec4 r = sqrt(sx * sx + sy * sy) * w;
+vec4 weights(vec2 p) {
+  vec4 mu = paper_weights(vx, vy, w, p, 1e-6);
+  facing = sum(mu);
+  return mu / facing;
+}
 #else
+vec4 weights(vec2 p) {
   vec4 sx = vx - w * p.x, sy = vy - w * p.y;
   vec4 r = sqrt(sx * sx + sy * sy);
-#endif
   vec4 area = sx * sy.yzwx - sy * sx.yzwx;
   vec4 inner = sx * sx.yzwx + sy * sy.yzwx;
   vec4 product = r * r.yzwx;
-#if FORM == PRINTED
-  vec4 t = mix((product - inner) / area, vec4(0.0), lessThan(abs(area), vec4(1e-6)));
-#else
   bvec4 obtuse = lessThan(inner, vec4(0.0));
   vec4 t = mix(area, product - inner, obtuse) / mix(product + inner, area, obtuse);
-#endif
-  vec4 mu = (t.wxyz + t) / r;
-  facing = sum(mu);
-  return FORM == PRINTED ? mu / facing : mu;
+  return (t.wxyz + t) / r;
 }
+#endif
 #endif
 )";
 
@@ -234,7 +230,7 @@ ShaderSource quad_shader_source(const ShaderVariant& variant) {
       number("VALUES", 1 + variant.attributes) + number("VECTORS", vertex_vectors(variant.attributes)) +
       number("TARGETS", shader_targets(variant).all) + number("DEPTH", variant.depth) +
       number("WEIGHTS", variant.weights) + boolean("PERSPECTIVE", variant.perspective) +
-      boolean("ATTRIBUTES_OVER_W", variant.attributes_over_w) + std::string(mean_value_quad_glsl);
+      boolean("ATTRIBUTES_OVER_W", variant.attributes_over_w) + std::string(golden_glsl);
   return {
       head + "#define LINK out\n" + interface_text + vertex_text,
       head + "#define LINK in\n" + interface_text + weights_text + (variant.picture ? picture_text : fragment_text)};

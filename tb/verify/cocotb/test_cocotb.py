@@ -17,7 +17,8 @@ KEYS = {
     "verilator": {"pixels_per_clock": 2},
     "icarus": tomllib.loads((RTL / "configurations/small.toml").read_text()),
 }
-WRAPPER = RTL / "axi4_stream/quadrille_axi4_stream.sv"
+WRAPPER = RTL / "wrap/quadrille_axi4_stream.sv"
+PARTS = [RTL / "wrap/quadrille_spill.sv", RTL / "wrap/quadrille_handshake_rules.sv"]
 
 
 def altered(folder: pathlib.Path, file: pathlib.Path, right: str, wrong: str) -> pathlib.Path:
@@ -39,7 +40,7 @@ def test_ports(simulator, tmp_path):
 
 @pytest.mark.parametrize("simulator", ["verilator", "icarus"])
 def test_stream(simulator, tmp_path):
-    wrapper = {"more": [WRAPPER], "keys": KEYS[simulator], "seed": SEED}
+    wrapper = {"more": [*PARTS, WRAPPER], "keys": KEYS[simulator], "seed": SEED}
     result = simulate(simulator, "quadrille_axi4_stream", "stream_bench", tmp_path, **wrapper)
     print(result.lines())
     assert (result.tests, result.failed) == (2, 0)
@@ -60,16 +61,16 @@ def test_ports_see_a_fault_icarus(tmp_path):
     ("right", "wrong", "seen"),
     [
         # The draw's end before its fragments; an incomplete quad that stays; TKEEP of a lane without a fragment.
-        ("DRAIN: if (!busy && !fragment_valid) ", "DRAIN: ", "the last beat is no null beat|fragments instead of"),
+        ("assign drained = step_q == DRAIN && !busy && !fragment_valid;", "assign drained = step_q == DRAIN;", "the last beat is no null beat|fragments instead of"),
         (".flush_i(step_q == DRAIN)", ".flush_i(1'b0)", "SimTimeoutError|fragments instead of| instead of "),
-        ("{LANE_BYTES{mask[g]}}", "{LANE_BYTES{fragment_valid}}", "fragments instead of"),
+        ("{LANE_BYTES{out_mask[g]}}", "{LANE_BYTES{m_axis_fragment_tvalid}}", "fragments instead of"),
     ],
     ids=["early_end", "no_flush", "tkeep"],
 )
 def test_stream_sees_a_fault_icarus(right, wrong, seen, tmp_path):
     wrapper = altered(tmp_path / "wrapper", WRAPPER, right, wrong)
     keys = {**KEYS["icarus"], "pixels_per_clock": 2}
-    result = simulate("icarus", "quadrille_axi4_stream", "stream_bench", tmp_path, more=[wrapper], keys=keys, seed=SEED)
+    result = simulate("icarus", "quadrille_axi4_stream", "stream_bench", tmp_path, more=[*PARTS, wrapper], keys=keys, seed=SEED)
     assert result.failed >= 1
     assert re.search(seen, result.log)
 

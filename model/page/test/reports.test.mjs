@@ -1,0 +1,76 @@
+// Links of a sweep's report and of the papers' figures open the page as what they stand for.
+import assert from "node:assert/strict";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { drawn, launch, open, program, root, run, serve } from "./support.mjs";
+
+let folder, browser, server;
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), "quadrille_reports_"));
+  browser = await launch();
+  server = await serve(folder);
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+  await rm(folder, { recursive: true, force: true });
+});
+
+const settled = (page) => page.waitForFunction(() => window.quadrille?.all_settled() ?? false, null, { timeout: 60000 });
+
+test("a point of a sweep", async () => {
+  const sweep = join(folder, "sweep");
+  await run(program, ["sweep", "--scene", "fig10_concave", "--size", "64x64", "--cosim", "none", "--quiet", "--out", sweep, "--set", "guard_bits=2",
+    "--axis", "significand_bits=10,14,18", "--axis", "subpixel_bits=6,8"]);
+  await run(join(root, "scripts/sweep_report.py"), [sweep, "--page", "/page/index.html", "--out", join(folder, "report")]);
+  const [head, ...lines] = (await readFile(join(sweep, "points.csv"), "utf8")).trimEnd().split("\n").map((line) => line.split(","));
+  const points = new Map(lines.map((cells) => [cells[0], Object.fromEntries(head.map((name, i) => [name, cells[i]]))]));
+  const { page, problems, close } = await open(browser, server.address, "page/index.html#view=");
+  const follow = async (link, row) => {
+    await link.click();
+    await drawn(page);
+    const shown = await page.evaluate(async () => (await window.quadrille.call("configuration", window.quadrille.config())).result.resolved);
+    const point = points.get(row);
+    for (const [key, value] of Object.entries(shown)) assert.equal(value, Number(point[key]), `row ${row}: ${key}`);
+    assert.equal(await page.inputValue("#scene"), "fig10_concave");
+    const hash = await page.evaluate(() => window.quadrille.hash());
+    assert.ok(hash.length < 80, hash);
+  };
+  await page.goto(`${server.address}report/report.html`);
+  const rows = await page.$$eval("a[href*='index.html#']", (links) => links.map((link) => link.textContent));
+  assert.ok(new Set(rows).size >= 3, String(rows));
+  for (const row of new Set(rows)) {
+    await follow(page.locator("a[href*='index.html#']", { hasText: new RegExp(`^${row}$`) }).first(), row);
+    await page.goto(`${server.address}report/report.html`);
+  }
+  // A mark that was clicked has a link, too.
+  await page.waitForFunction(() => document.querySelector("#plot-error_cost")?._fullLayout);
+  await page.evaluate(() => {
+    const plot = document.querySelector("#plot-error_cost");
+    plot.emit("plotly_click", { points: [{ customdata: 1 }] });
+  });
+  await follow(page.locator("#pin-error_cost a"), "1");
+  await close();
+  assert.deepEqual(problems, []);
+});
+
+test("a sheet of a figure", async () => {
+  await run(join(root, "scripts/figures.py"), ["--quadrille", program, "--only", "hormann_tarini7", "--size", "64x64", "--out", join(folder, "figures")]);
+  const { page, problems, close } = await open(browser, server.address, "page/index.html#view=");
+  await page.goto(`${server.address}figures/index.html`);
+  const links = await page.$$eval("a[href*='page/index.html#']", (all) => all.map((link) => link.href));
+  assert.equal(links.length, 2);
+  for (const [i, perspective] of [[0, false], [1, true]]) {
+    await page.goto(links[i]);
+    await settled(page);
+    assert.equal(await page.inputValue("#scene"), "fig7_floor");
+    assert.equal(await page.inputValue("#view"), "split02");
+    assert.equal(await page.isChecked("#perspective"), perspective);
+    assert.equal(await page.evaluate(() => document.getElementById("machine").width), 64);
+    await page.goto("about:blank");
+  }
+  await close();
+  assert.deepEqual(problems, []);
+});
