@@ -66,6 +66,7 @@ void check_ply_header(std::string_view text, const std::string& path) {
     at = end + (text.substr(end).starts_with("\r\n") ? 2 : 1);
     const std::string_view word = tokens.empty() ? std::string_view() : tokens.front().text;
     if (word == "end_header" && end < text.size()) return;
+    if (word == "end_header") break;
     if (std::ranges::find(known, word) == known.end())
       throw input_error(path, line,
                         "the header has " + in_quotes(word) + "; comment, element, property, … and at last " +

@@ -17,9 +17,9 @@ namespace quadrille::golden {
 ///   with one first vertex, each beginning where the one before ends, are one face. A note has the counts.
 /// - Textures, animations and skins are not read. A note counts points and lines of glTF.
 ///
-/// Throws InputError with the file and, where one is at fault, the vertex or face: what assimp refuses or drops,
-/// numbers that are not finite or above 2^80, faces with one or two corners, extensions that are required and not
-/// known; a file that cannot be read or has no face.
+/// Throws InputError with the file and, where one is at fault, the vertex, face or line: what assimp refuses or
+/// drops, numbers that are not finite or above 2^80, faces with one or two corners, extensions that are required and
+/// not known; a file that cannot be read or has no face.
 Mesh import_mesh(const std::string& path, bool pairs);
 
 }  // namespace quadrille::golden

@@ -123,6 +123,17 @@ TEST_F(InDirectory, GltfWithNgonEncodingHasItsPolygons) {
   EXPECT_TRUE(mesh.colours.empty());
 }
 
+/// Triangles of one first vertex that do not go on from each other are two faces.
+TEST_F(InDirectory, NgonsGoOnWhereTheyEnd) {
+  auto others = triangles;
+  others[4] = 4, others[5] = 5;
+  write("m.bin", bytes(points) + bytes(texture) + bytes(others));
+  const Indices faces = faces_of(import_mesh(write("m.gltf", gltf(ngon)), false));
+  ASSERT_EQ(faces.size(), 5u);
+  EXPECT_EQ(faces[0], (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(faces[1], (std::vector<int>{0, 4, 5}));
+}
+
 TEST_F(InDirectory, GltfWithoutItHasTrianglesThatMayMerge) {
   write("m.bin", buffer());
   const std::string file = write("m.gltf", gltf(""));

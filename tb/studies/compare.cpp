@@ -569,8 +569,7 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
       ->excludes(cell)
       ->type_name("N")
       ->group(output_group);
-  command->add_flag("--wireframe", options->wireframe, "Add a row with each method's mesh, beside its picture")
-      ->group(output_group);
+  command->add_flag("--wireframe", options->wireframe, "Add a row with each method's mesh")->group(output_group);
   command->add_flag("--plot", options->plot, "Plot error against time and against triangles")->group(output_group);
   command->callback([options, &invocation] {
     invocation.run = [options, &invocation] {

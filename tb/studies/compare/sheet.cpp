@@ -217,13 +217,13 @@ Image8 draw_sheet(const Sheet& sheet, int cell_width) {
       write_line(context, x, y + text_size, scale.text, width);
       x += width_of(context, scale.text + " ") + 4;
       write_line(context, x, y + text_size, low, width);
-      x += width_of(context, low) + 6;
+      x = std::ceil(x + width_of(context, low) + 6);  // whole pixels, so that no colour is mixed
       constexpr int steps = 96;
       for (int i = 0; i < steps; ++i) {
         const auto colour =
             golden::heat_colour(least * std::exp2(scale.octaves * (i + 0.5) / steps), scale.most, scale.octaves);
         cairo_set_source_rgb(context, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
-        cairo_rectangle(context, x + i, y + 2, 1.5, text_size);
+        cairo_rectangle(context, x + i, std::round(y) + 2, 1, text_size);
         cairo_fill(context);
       }
       x += steps + 6;
