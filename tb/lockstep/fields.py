@@ -11,6 +11,7 @@ number of fields NAME_neg, NAME_exp and NAME_sig is NAME, of neg, exp and sig `v
 the PATH. Exit status: 0 done; 2 usage or input error; 3 a missing tool.
 """
 import itertools
+import math
 import os
 import pathlib
 import re
@@ -63,6 +64,12 @@ def records(settings):
     return found
 
 
+def number(negative, exponent, significand):
+    """Registers hold random bits before their first value: any exponent."""
+    power = math.ldexp(1.0, exponent) if exponent < 1024 else math.inf
+    return (-significand if negative else significand) * power if significand else 0.0
+
+
 def unpacked(fields, word):
     """{field: [value of each element, from 0]} of a word; a number in several fields also by its name."""
     values, position = {}, sum(width for _, _, width, _, _ in fields)
@@ -73,7 +80,7 @@ def unpacked(fields, word):
         values.setdefault(name, []).insert(0, value * 2.0**-fraction if fraction else value)
     for prefix in [name[:-3] for name in values if re.fullmatch(r"(\w+_)?sig", name)]:
         parts = zip(values.get(prefix + "neg", itertools.repeat(0)), values[prefix + "exp"], values[prefix + "sig"])
-        values[prefix[:-1] or "value"] = [(-significand if negative else significand) * 2.0**exponent for negative, exponent, significand in parts]
+        values[prefix[:-1] or "value"] = [number(*part) for part in parts]
     return values
 
 

@@ -78,6 +78,8 @@ class Fields(unittest.TestCase):
         first, second = (word & (1 << 210) - 1 for word in kept.words[:2])
         lanes = run("fragment_t:x,y", stdin=f"{second << 210 | first:0105x}\n{first:0105x}\nxx0\n").stdout.splitlines()
         one, two = ([int(kept.value(word, n)) for n in "xy"] for word in kept.words[:2])
+        # Bits of a register before its first value.
+        self.assertIn("inf", run("weight:value", stdin="7ff7ff7ff7ff" + "f" * 18 + "\n").stdout)
         self.assertEqual(lanes, [f"x {one[0]}  y {one[1]} | x {two[0]}  y {two[1]}", f"x {one[0]}  y {one[1]} | -", "xx0"])
 
     def test_weights(self):
@@ -114,14 +116,14 @@ class Fields(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             commands = wave.with_suffix(".sucl").read_text().splitlines()
             path = "quadrille.quadrille_probed.u_quadrille."
-            at = commands.index("item_set_format quadrille_vertex_t_x_y_w")
+            at = commands.index("item_set_format quadrille_vertex_t_x")
             self.assertEqual(commands[at - 1], f"variable_add {path}vertex_i")
             self.assertIn("cursor_set 8", commands)
             for group in ("Front", "Tiles", "Pixel"):
                 self.assertTrue(any(line.startswith(f'divider_add "{group}') for line in commands))
-            mapping = pathlib.Path(folder, ".surfer/mappings/quadrille_vertex_t_x_y_w.txt").read_text().splitlines()
-            text = run("vertex_t:x,y,w", stdin=f"{vertex:0120x}\n").stdout.strip()
-            self.assertEqual(mapping, ["Name = quadrille_vertex_t_x_y_w", "Bits = 477", f"0b{vertex:0477b} {text}"])
+            mapping = pathlib.Path(folder, ".surfer/mappings/quadrille_vertex_t_x.txt").read_text().splitlines()
+            text = run("vertex_t:x", stdin=f"{vertex:0120x}\n").stdout.strip()
+            self.assertEqual(mapping, ["Name = quadrille_vertex_t_x", "Bits = 477", f"0b{vertex:0477b} {text}"])
 
     def test_gtkwave(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -129,10 +131,10 @@ class Fields(unittest.TestCase):
             result = run("gtkwave", wave, "pixels_per_clock=2")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             view = wave.with_suffix(".gtkw").read_text().splitlines()
-            self.assertIn("+{fragment x y} quadrille.quadrille_probed.u_quadrille.fragment_o[419:0]", view)
-            at = view.index("+{vertex x y w} quadrille.quadrille_probed.u_quadrille.vertex_i[476:0]")
+            self.assertIn("+{fragment x} quadrille.quadrille_probed.u_quadrille.fragment_o[419:0]", view)
+            at = view.index("+{vertex x} quadrille.quadrille_probed.u_quadrille.vertex_i[476:0]")
             number, program, *arguments = view[at - 1].split()
-            self.assertEqual(arguments, ["vertex_t:x,y,w", "pixels_per_clock=2"])
+            self.assertEqual(arguments, ["vertex_t:x", "pixels_per_clock=2"])
             self.assertEqual(program, str(HERE / "fields.py"))
 
     def test_view(self):
