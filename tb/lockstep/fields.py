@@ -3,7 +3,8 @@
 
   tb/lockstep/fields.py RECORD:FIELD[,FIELD...] [KEY=VALUE...]    translate filter: hexadecimal words in, text out
   tb/lockstep/fields.py gtkwave WAVE [KEY=VALUE...]               WAVE.gtkw, the view of any configuration
-  tb/lockstep/fields.py surfer WAVE [KEY=VALUE...]                WAVE.sucl, and .surfer/mappings beside it
+  tb/lockstep/fields.py surfer WAVE [KEY=VALUE...]                WAVE.sucl, and .surfer/mappings beside it: as
+                                                                  the manual of Surfer 0.7 has them
 
 WAVE: .fst of `quadrille cosim --trace` (read by fst2vcd, of Debian's package gtkwave) or .vcd. KEY=VALUE: of the
 configuration, where it is not the default one. RECORD and FIELD: `quadrille config --boundaries ports`, `probes`; a
@@ -190,7 +191,7 @@ def write_gtkwave(wave, settings):
             line = f"^>{number} {pathlib.Path(__file__).resolve()} {' '.join([what, *settings])}"
         elif signal := re.match(r"(\+\{.*\} )?(quadrille\.[^\[\s]+)", line):
             if entry := found.get(signal[2]):
-                line = (signal[1] or "") + signal[2] + re.sub(r"^[^\[]*", "", entry[2])
+                line = (signal[1] or "") + signal[2] + re.sub(r"\[(\d+):\1\]", r"[\1]", re.sub(r"^[^\[]*", "", entry[2]))
         text.append(line)
     view = wave.with_suffix(".gtkw")
     view.write_text("\n".join(text) + "\n")

@@ -67,10 +67,12 @@ def simulate(
     more: Sequence[pathlib.Path] = (),
     rtl: pathlib.Path = RTL,
     seed: int = 1,
+    only: str | None = None,
 ) -> Result:
     """Runs the tests of a bench, a module beside this file, on the module `top`; a build that fails raises.
 
     keys: of the configuration. more: sources besides the machine's. folder: for what is built, made if it is missing.
+    only: tests whose names have this regular expression.
     """
     folder.mkdir(parents=True, exist_ok=True)
     config = quadrille.Config(**keys)
@@ -105,6 +107,7 @@ def simulate(
             build_dir=folder / "build",
             results_xml=str(results),
             seed=seed,
+            test_filter=only,
             extra_env={"QUADRILLE_KEYS": json.dumps(dict(keys)), "PYTHONDONTWRITEBYTECODE": "1"},
             log_file=log,
         )

@@ -9,7 +9,7 @@ from cocotb.triggers import FallingEdge, with_timeout
 from cocotbext.axi import AxiStreamBus, AxiStreamFrame, AxiStreamSink, AxiStreamSource
 from draws import CONFIG, FRAGMENTS, SEED, SIZE, rng_of, some_quads
 
-CLOCKS = 4000  # of a draw, at most
+CLOCKS = 2500  # of a draw, at most
 # Stress family, draw state, beats of a quad that does not come to its end.
 DRAWS = [
     ("general", {}, 0),
