@@ -1,5 +1,7 @@
 """Words of the ports."""
 
+import pathlib
+
 import numpy as np
 import pytest
 
@@ -71,3 +73,9 @@ def test_fragments_and_state():
         quadrille.fragments_of_words(["12"])
     with pytest.raises(quadrille.DrawStateError, match="attributes"):
         quadrille.state_word(attributes=5)
+
+
+def test_tables_of_the_rtl():
+    kept = pathlib.Path(__file__).resolve().parents[3] / "rtl/default_tables/quadrille_tables_pkg.sv"
+    assert quadrille.Config().tables() == kept.read_text()
+    assert "SIGNIFICAND_BITS = 12;" in quadrille.Config(significand_bits=12).tables()
