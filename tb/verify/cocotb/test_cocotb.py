@@ -69,7 +69,9 @@ def test_ports_see_a_fault_icarus(tmp_path):
 def test_stream_sees_a_fault_icarus(right, wrong, seen, tmp_path):
     wrapper = altered(tmp_path / "wrapper", WRAPPER, right, wrong)
     keys = {**KEYS["icarus"], "pixels_per_clock": 2}
-    result = simulate("icarus", "quadrille_axi4_stream", "stream_bench", tmp_path, more=[wrapper], keys=keys, seed=SEED, only="0.5")
+    result = simulate(
+        "icarus", "quadrille_axi4_stream", "stream_bench", tmp_path, more=[wrapper], keys=keys, seed=SEED, only="0.5"
+    )
     assert (result.tests, result.failed) == (1, 1)
     assert re.search(seen, result.log)
 
