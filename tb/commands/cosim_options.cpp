@@ -53,8 +53,7 @@ void CosimOptions::check(const Config& config) const {
           "--battery sets inputs, configurations and draw states; use it only with --rtl, --seed, --threads, "
           "--json, --shrink and --quiet");
   }
-  if (judge != "lockstep" && judge != "truth")
-    throw UsageError("--judge " + judge + ": expected lockstep or truth");
+  if (judge != "lockstep" && judge != "truth") throw UsageError("--judge " + judge + ": expected lockstep or truth");
   if (by_truth() && (draws > 0 || !battery.empty()))
     throw UsageError("--judge truth conflicts with --" + std::string(draws > 0 ? "draws" : "battery") +
                      ", which compares with the model");

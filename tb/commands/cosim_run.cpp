@@ -341,10 +341,10 @@ void CosimRun::shrink_failure(const std::vector<InputResult>& results, bool mode
   if (!failed_) {  // the draw itself is right
     const bool limits = std::ranges::any_of(results, [](const InputResult& r) { return !r.beyond_limits.empty(); });
     const bool skips = std::ranges::any_of(results, [](const InputResult& r) { return r.skips.differences > 0; });
-    const char* const why = skips         ? "only draws with other skips differ"
-                            : limits      ? "only regression limits are exceeded"
-                            : !model_ok   ? "only input-independent model checks failed"
-                                          : "no fragments compared";
+    const char* const why = skips       ? "only draws with other skips differ"
+                            : limits    ? "only regression limits are exceeded"
+                            : !model_ok ? "only input-independent model checks failed"
+                                        : "no fragments compared";
     std::fprintf(stderr, "quadrille: not minimized: %s\n", why);
     return;
   }

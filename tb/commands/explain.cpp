@@ -1,7 +1,6 @@
 // quadrille explain: one pixel taken apart, number by number.
 #include "tb/commands/commands.hpp"
 #include "tb/commands/cosim_options.hpp"
-#include "tb/commands/cosim_options.hpp"
 #include "tb/commands/explain_rtl.hpp"
 #include "tb/options/command_line.hpp"
 

@@ -37,9 +37,9 @@ class HiddenCheck {
 
   /// A fragment of the quad that is being drawn.
   void fragment(const Fragment& fragment);
-  /// The quad is complete. Where the machine is exact, draws it once more with nothing hidden: what the machine drew must be there, in this order
-  /// and bit by bit, and of what is missing nothing may be nearer than the buffer. Returns what is wrong first: the
-  /// pixel and words.
+  /// The quad is complete. Where the machine is exact, draws it once more with nothing hidden: what the machine drew
+  /// must be there, in this order and bit by bit, and of what is missing nothing may be nearer than the buffer. Returns
+  /// what is wrong first: the pixel and words.
   struct Fault {
     int x = 0, y = 0;
     std::string text;

@@ -3,14 +3,17 @@
 
   tb/lockstep/fields.py RECORD:FIELD[,FIELD...] [KEY=VALUE...]    translate filter: hexadecimal words in, text out
   tb/lockstep/fields.py gtkwave WAVE [KEY=VALUE...]               WAVE.gtkw, the view of any configuration
-  tb/lockstep/fields.py surfer WAVE [KEY=VALUE...]                WAVE.sucl, and .surfer/mappings beside it
+  tb/lockstep/fields.py surfer WAVE [KEY=VALUE...]                WAVE.sucl, and .surfer/mappings beside it: as
+                                                                  the manual of Surfer 0.7 has them
 
 WAVE: .fst of `quadrille cosim --trace` (read by fst2vcd, of Debian's package gtkwave) or .vcd. KEY=VALUE: of the
 configuration, where it is not the default one. RECORD and FIELD: `quadrille config --boundaries ports`, `probes`; a
-number of fields NAME_neg, NAME_exp and NAME_sig is NAME, of neg, exp and sig `value`. The program is $QUADRILLE, build/release/quadrille or that of
-the PATH. Exit status: 0 done; 2 usage or input error; 3 a missing tool.
+number of fields NAME_neg, NAME_exp and NAME_sig is NAME, of neg, exp and sig `value`. The program is $QUADRILLE,
+build/release/quadrille or that of the PATH. Exit status: 0 done; 2 usage or input error; 3 a missing tool.
 """
+
 import itertools
+import math
 import os
 import pathlib
 import re
@@ -57,10 +60,18 @@ def records(settings):
                 found[head[1]] = fields = []
             elif field := re.match(r"(\w+) +(?:(\d+) × )?(\d+)(, signed)?(?: +(-?\d+)(?= |$))?", line):
                 name, count, width, signed, fraction = field.groups()
-                fields += [(name, i, int(width), bool(signed), int(fraction or 0)) for i in reversed(range(int(count or 1)))]
+                fields += [
+                    (name, i, int(width), bool(signed), int(fraction or 0)) for i in reversed(range(int(count or 1)))
+                ]
         if which == "ports":
             found = {record: together(fields) for record, fields in found.items()}
     return found
+
+
+def number(negative, exponent, significand):
+    """Registers hold random bits before their first value: any exponent."""
+    power = math.ldexp(1.0, exponent) if exponent < 1024 else math.inf
+    return (-significand if negative else significand) * power if significand else 0.0
 
 
 def unpacked(fields, word):
@@ -73,7 +84,7 @@ def unpacked(fields, word):
         values.setdefault(name, []).insert(0, value * 2.0**-fraction if fraction else value)
     for prefix in [name[:-3] for name in values if re.fullmatch(r"(\w+_)?sig", name)]:
         parts = zip(values.get(prefix + "neg", itertools.repeat(0)), values[prefix + "exp"], values[prefix + "sig"])
-        values[prefix[:-1] or "value"] = [(-significand if negative else significand) * 2.0**exponent for negative, exponent, significand in parts]
+        values[prefix[:-1] or "value"] = [number(*part) for part in parts]
     return values
 
 
@@ -118,7 +129,9 @@ def run_filter(what, settings):
     for line in sys.stdin:
         digits = line.strip()
         known = re.fullmatch(r"[0-9a-fA-F]+", digits)
-        print(decode.text(int(digits, 16), 4 * len(digits) // decode.bits * decode.bits) if known else digits, flush=True)
+        print(
+            decode.text(int(digits, 16), 4 * len(digits) // decode.bits * decode.bits) if known else digits, flush=True
+        )
 
 
 def rows():
@@ -183,7 +196,9 @@ def write_gtkwave(wave, settings):
             line = f"^>{number} {pathlib.Path(__file__).resolve()} {' '.join([what, *settings])}"
         elif signal := re.match(r"(\+\{.*\} )?(quadrille\.[^\[\s]+)", line):
             if entry := found.get(signal[2]):
-                line = (signal[1] or "") + signal[2] + re.sub(r"^[^\[]*", "", entry[2])
+                line = (
+                    (signal[1] or "") + signal[2] + re.sub(r"\[(\d+):\1\]", r"[\1]", re.sub(r"^[^\[]*", "", entry[2]))
+                )
         text.append(line)
     view = wave.with_suffix(".gtkw")
     view.write_text("\n".join(text) + "\n")

@@ -2,6 +2,7 @@
 """Tests of fields.py: tb/lockstep/fields_test.py PATH_TO_QUADRILLE
 
 Expected numbers come from the kept golden vectors, by the positions of their manifests."""
+
 import json
 import os
 import pathlib
@@ -16,7 +17,9 @@ os.environ["QUADRILLE"] = os.path.abspath(sys.argv.pop(1))
 
 
 def run(*arguments, stdin="", **options):
-    return subprocess.run([HERE / "fields.py", *map(str, arguments)], input=stdin, capture_output=True, text=True, **options)
+    return subprocess.run(
+        [HERE / "fields.py", *map(str, arguments)], input=stdin, capture_output=True, text=True, **options
+    )
 
 
 class Kept:
@@ -35,7 +38,9 @@ class Kept:
         return value * 2.0 ** -field.get("fraction_bits", 0)
 
     def number(self, word, name, index=-1):
-        sign = -1 if any(f["name"] == name + "neg" for f in self.fields) and self.value(word, name + "neg", index) else 1
+        sign = (
+            -1 if any(f["name"] == name + "neg" for f in self.fields) and self.value(word, name + "neg", index) else 1
+        )
         return sign * self.value(word, name + "sig", index) * 2.0 ** self.value(word, name + "exp", index)
 
 
@@ -61,9 +66,14 @@ class Fields(unittest.TestCase):
         words = kept.words[:400]
         vertices = [word & (1 << 477) - 1 for word in words]
         self.compare(self.numbers("vertex_t:x,y,w", vertices, 477), [[kept.value(w, n) for n in "xyw"] for w in words])
-        self.compare(self.numbers("vertex_t:id,k,z", vertices, 477),
-                     [[kept.value(w, "id"), kept.number(w, "k_"), kept.number(w, "z_")] for w in words])
-        self.compare(self.numbers("vertex_t:attr", vertices, 477), [[kept.number(w, "attr_", i) for i in range(4)] for w in words])
+        self.compare(
+            self.numbers("vertex_t:id,k,z", vertices, 477),
+            [[kept.value(w, "id"), kept.number(w, "k_"), kept.number(w, "z_")] for w in words],
+        )
+        self.compare(
+            self.numbers("vertex_t:attr", vertices, 477),
+            [[kept.number(w, "attr_", i) for i in range(4)] for w in words],
+        )
 
     def test_fragments(self):
         kept = Kept("machine", "response")
@@ -78,17 +88,27 @@ class Fields(unittest.TestCase):
         first, second = (word & (1 << 210) - 1 for word in kept.words[:2])
         lanes = run("fragment_t:x,y", stdin=f"{second << 210 | first:0105x}\n{first:0105x}\nxx0\n").stdout.splitlines()
         one, two = ([int(kept.value(word, n)) for n in "xy"] for word in kept.words[:2])
-        self.assertEqual(lanes, [f"x {one[0]}  y {one[1]} | x {two[0]}  y {two[1]}", f"x {one[0]}  y {one[1]} | -", "xx0"])
+        # Bits of a register before its first value.
+        self.assertIn("inf", run("weight:value", stdin="7ff7ff7ff7ff" + "f" * 18 + "\n").stdout)
+        self.assertEqual(
+            lanes, [f"x {one[0]}  y {one[1]} | x {two[0]}  y {two[1]}", f"x {one[0]}  y {one[1]} | -", "xx0"]
+        )
 
     def test_weights(self):
         kept = Kept("weights", "response")
-        self.compare(self.numbers("weight:value", kept.words, 120), [[kept.number(w, "", i) for i in range(4)] for w in kept.words])
+        self.compare(
+            self.numbers("weight:value", kept.words, 120),
+            [[kept.number(w, "", i) for i in range(4)] for w in kept.words],
+        )
 
     def test_errors(self):
         for arguments, status, text in [
-            (["vertex_t:q"], 2, "vertex_t: no field q; there are id, x, y"), (["vertices:x"], 2, "vertices: no such record"),
-            (["vertex_t"], 2, "vertex_t: expected RECORD:FIELD,FIELD"), (["vertex_t:x", "significand_bits=99"], 2, "significand_bits"),
-            (["surfer"], 2, "surfer: WAVE is missing"), (["gtkwave", "/nowhere.fst"], 2, "/nowhere.fst: no such file"),
+            (["vertex_t:q"], 2, "vertex_t: no field q; there are id, x, y"),
+            (["vertices:x"], 2, "vertices: no such record"),
+            (["vertex_t"], 2, "vertex_t: expected RECORD:FIELD,FIELD"),
+            (["vertex_t:x", "significand_bits=99"], 2, "significand_bits"),
+            (["surfer"], 2, "surfer: WAVE is missing"),
+            (["gtkwave", "/nowhere.fst"], 2, "/nowhere.fst: no such file"),
         ]:
             result = run(*arguments)
             self.assertEqual((result.returncode, result.stdout), (status, ""), result.stderr)
@@ -104,7 +124,8 @@ class Fields(unittest.TestCase):
             "$var wire 1 a clk_i $end\n$var wire 477 b vertex_i [476:0] $end\n"
             f"$var wire {210 * lanes} c fragment_o [{210 * lanes - 1}:0] $end\n"
             "$upscope $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
-            f"#0\n0a\nbx b\n#8\nb{vertex:b} b\n#90\nb{fragment:b} c\n")
+            f"#0\n0a\nbx b\n#8\nb{vertex:b} b\n#90\nb{fragment:b} c\n"
+        )
         return wave, vertex, fragment
 
     def test_surfer(self):
@@ -114,14 +135,14 @@ class Fields(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             commands = wave.with_suffix(".sucl").read_text().splitlines()
             path = "quadrille.quadrille_probed.u_quadrille."
-            at = commands.index("item_set_format quadrille_vertex_t_x_y_w")
+            at = commands.index("item_set_format quadrille_vertex_t_x")
             self.assertEqual(commands[at - 1], f"variable_add {path}vertex_i")
             self.assertIn("cursor_set 8", commands)
             for group in ("Front", "Tiles", "Pixel"):
                 self.assertTrue(any(line.startswith(f'divider_add "{group}') for line in commands))
-            mapping = pathlib.Path(folder, ".surfer/mappings/quadrille_vertex_t_x_y_w.txt").read_text().splitlines()
-            text = run("vertex_t:x,y,w", stdin=f"{vertex:0120x}\n").stdout.strip()
-            self.assertEqual(mapping, ["Name = quadrille_vertex_t_x_y_w", "Bits = 477", f"0b{vertex:0477b} {text}"])
+            mapping = pathlib.Path(folder, ".surfer/mappings/quadrille_vertex_t_x.txt").read_text().splitlines()
+            text = run("vertex_t:x", stdin=f"{vertex:0120x}\n").stdout.strip()
+            self.assertEqual(mapping, ["Name = quadrille_vertex_t_x", "Bits = 477", f"0b{vertex:0477b} {text}"])
 
     def test_gtkwave(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -129,10 +150,10 @@ class Fields(unittest.TestCase):
             result = run("gtkwave", wave, "pixels_per_clock=2")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             view = wave.with_suffix(".gtkw").read_text().splitlines()
-            self.assertIn("+{fragment x y} quadrille.quadrille_probed.u_quadrille.fragment_o[419:0]", view)
-            at = view.index("+{vertex x y w} quadrille.quadrille_probed.u_quadrille.vertex_i[476:0]")
+            self.assertIn("+{fragment x} quadrille.quadrille_probed.u_quadrille.fragment_o[419:0]", view)
+            at = view.index("+{vertex x} quadrille.quadrille_probed.u_quadrille.vertex_i[476:0]")
             number, program, *arguments = view[at - 1].split()
-            self.assertEqual(arguments, ["vertex_t:x,y,w", "pixels_per_clock=2"])
+            self.assertEqual(arguments, ["vertex_t:x", "pixels_per_clock=2"])
             self.assertEqual(program, str(HERE / "fields.py"))
 
     def test_view(self):

@@ -118,7 +118,7 @@ class LockstepSession {
 struct AloneRun {
   std::uint64_t quads = 0, fragments = 0, cycles = 0;
   bool complete = false;  ///< every quad was drawn: not ended by a limit
-  double seconds = 0;  ///< of the loop
+  double seconds = 0;     ///< of the loop
   std::uint64_t fragment_hash = 0;
   PerformanceCounters counters;  ///< of the clocked model; of the RTL if the configuration has them, else 0
 };

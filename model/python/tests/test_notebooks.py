@@ -26,7 +26,8 @@ def test_notebook(path, tmp_path, monkeypatch):
     # Seconds of a cell, which takes three, or simulates. A reply whose wake-up is lost (pyzmq under asyncio) is found
     # when they end.
     nbclient.NotebookClient(
-        notebook, timeout_func=lambda cell: 300 if "simulator.test" in cell.source else 60,
+        notebook,
+        timeout_func=lambda cell: 300 if "simulator.test" in cell.source else 60,
         resources={"metadata": {"path": tmp_path}},
     ).execute()
     outputs = [output for cell in cells for output in cell.outputs]

@@ -1,5 +1,7 @@
 """Words of the ports."""
 
+import pathlib
+
 import numpy as np
 import pytest
 
@@ -63,11 +65,15 @@ def test_fragments_and_state():
     assert np.array_equal(quadrille.fragments_of_words(words, names=quads.names), drawn)
     numbers = [int(word, 16) for word in words]
     assert np.array_equal(quadrille.fragments_of_words(numbers, names=quads.names), drawn)
-    states = {
-        quadrille.state_word(attributes=n, size=(64, 64), cull=cull) for n in (0, 4) for cull in ("none", "back")
-    }
+    states = {quadrille.state_word(attributes=n, size=(64, 64), cull=cull) for n in (0, 4) for cull in ("none", "back")}
     assert len(states) == 4 and len({len(state) for state in states}) == 1
     with pytest.raises(ValueError, match="fragment 0: has 2 characters"):
         quadrille.fragments_of_words(["12"])
     with pytest.raises(quadrille.DrawStateError, match="attributes"):
         quadrille.state_word(attributes=5)
+
+
+def test_tables_of_the_rtl():
+    kept = pathlib.Path(__file__).resolve().parents[3] / "rtl/default_tables/quadrille_tables_pkg.sv"
+    assert quadrille.Config().tables() == kept.read_text()
+    assert "SIGNIFICAND_BITS = 12;" in quadrille.Config(significand_bits=12).tables()

@@ -5,7 +5,6 @@
 
 import json
 import math
-import os
 import pathlib
 import sys
 
@@ -25,7 +24,8 @@ def records(suite, name):
     for line in (SET / layout["file"]).read_text().split():
         one = {}
         for field in layout["fields"]:
-            one.setdefault(field["index"], {})[field["name"]] = int(line, 16) >> field["position"] & (1 << field["width"]) - 1
+            bits = int(line, 16) >> field["position"] & (1 << field["width"]) - 1
+            one.setdefault(field["index"], {})[field["name"]] = bits
         yield from one.values()
 
 
@@ -41,7 +41,7 @@ async def same_bits(dut):
             answers.append({"exp": int(dut.exp_o.value), "sig": int(dut.sig_o.value)})
         if cycle < len(stimuli):
             dut.exp_i.value, dut.sig_i.value = stimuli[cycle]["exp"], stimuli[cycle]["sig"]
-    for stimulus, answer in zip(stimuli, answers):  # sqrt(sig 2^(exp-17)) in units of the last place, 2^(floor(exp/2)-17)
+    for stimulus, answer in zip(stimuli, answers):  # sqrt(sig 2^(exp-17)) in units of 2^(floor(exp/2)-17)
         worst = max(worst, abs(answer["sig"] - math.sqrt(stimulus["sig"] << 17 + (stimulus["exp"] & 1))))
     wrong = [i for i, response in enumerate(responses) if answers[i] != response]
     dut._log.info(f"{len(answers)} answers, {len(wrong)} differ; at most {worst:.3f} ulp from the exact root")

