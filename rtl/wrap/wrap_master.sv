@@ -92,7 +92,7 @@ module wrap_master (
       wdata <= first;
       wstrb <= 4'b1111;
       araddr <= read_first;
-      while (responses < 2 || values < 2) begin
+      while ((responses < 2 || values < 2) && clocks < 100) begin
         @(posedge clk);
         if (awvalid && awready) writes = writes + 1;
         if (wvalid && wready) words = words + 1;
@@ -111,6 +111,7 @@ module wrap_master (
         bready <= clocks > 12 && writes == 2 && words == 2 && responses < 2;
         rready <= clocks > 12 && reads == 2 && values < 2;
       end
+      if (responses < 2 || values < 2) error("not two responses of two accesses");
       repeat (4) @(posedge clk);
       if (bvalid || rvalid) error("a third response");
     end
