@@ -201,18 +201,18 @@ namespace {
 Picture picture_of_passes(const Drawing& drawing, int attributes, Values values) {
   const Request& request = drawing.request;
   const FragmentTable table = draw_fragments(drawing);
-  Picture out{{request.width, request.height, attributes, request.config, drawing.state.depth, true},
-              table.stats,
-              table.lanes};
+  Picture out{
+      {request.width, request.height, attributes, request.config, drawing.state.depth, true}, table.stats, table.lanes};
   const std::size_t first = values == Values::weights ? 0 : 4, columns = static_cast<std::size_t>(table.columns);
   std::vector<double> value(static_cast<std::size_t>(attributes));
   for (std::size_t f = 0; f < table.quads.size(); ++f) {
-    const auto pixel =
-        static_cast<std::size_t>(table.heads[6 * f + 2]) * static_cast<std::size_t>(request.width) + table.heads[6 * f + 1];
+    const auto pixel = static_cast<std::size_t>(table.heads[6 * f + 2]) * static_cast<std::size_t>(request.width) +
+                       table.heads[6 * f + 1];
     const double depth = std::ldexp(static_cast<double>(table.heads[6 * f + 5]), -request.config.depth_bits);
     if (drawing.state.depth && !(depth < out.image.depth()[pixel])) continue;
     for (std::size_t j = 0; j < value.size(); ++j)
-      value[j] = std::ldexp(static_cast<double>(table.codes[f * columns + first + j]), -request.config.attribute_frac());
+      value[j] =
+          std::ldexp(static_cast<double>(table.codes[f * columns + first + j]), -request.config.attribute_frac());
     out.image.overwrite(pixel, depth, value, table.quads[f]);
   }
   return out;

@@ -144,7 +144,8 @@ View error_view(const Drawing& drawing, const DepthImage<double>& weights, bool 
     const std::size_t pixel = canvas.at(of.x, of.y);
     outside += !of.inside;
     undefined += of.inside && std::isnan(of.error);
-    if (!of.inside || std::isnan(of.error)) return canvas.put(pixel, of.inside ? golden::undefined_colour : outside_colour);
+    if (!of.inside || std::isnan(of.error))
+      return canvas.put(pixel, of.inside ? golden::undefined_colour : outside_colour);
     canvas.put(pixel, scale_colour(of.error > 0 ? 1 - std::log2(of.error / bound.value) / darkest : 0));
     if (of.error > worst.error) worst = of;
   });
@@ -287,7 +288,8 @@ View shader_view(const Drawing& drawing, std::span<const float> pixels) {
       const float* seen = &pixels[half + at];
       if (seen[0] == 0) continue;
       std::array<double, 4> lambda{weights[0], weights[1], weights[2], weights[3]};
-      const bool finite = std::isfinite(seen[1]) && std::ranges::all_of(lambda, [](double l) { return std::isfinite(l); });
+      const bool finite =
+          std::isfinite(seen[1]) && std::ranges::all_of(lambda, [](double l) { return std::isfinite(l); });
       if (!finite && !error) lambda = {};  // no shading takes them
       picture.add(static_cast<std::size_t>(seen[0]) - 1, x, y, seen[2] < 0, !finite, seen[1], lambda);
     }

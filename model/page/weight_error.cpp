@@ -25,7 +25,8 @@ void weight_errors(const Drawing& drawing, const DepthImage<double>& weights, in
     for (std::size_t n = 0; n < exact.size(); ++n) {
       WeightError of{places[i][n].x, places[i][n].y, 0, exact[n].covered && exact[n].visible};
       for (std::size_t k = 1; k < 4; ++k) {
-        const double error = std::fabs(weights.attribute(static_cast<int>(k))[pixel_of(of.x, of.y)] - exact[n].lambda[k]);
+        const double error =
+            std::fabs(weights.attribute(static_cast<int>(k))[pixel_of(of.x, of.y)] - exact[n].lambda[k]);
         of.error = error > of.error || std::isnan(error) ? error : of.error;
       }
       take(of);

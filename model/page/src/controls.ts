@@ -66,7 +66,9 @@ declare const configurations: Record<string, { aim: string; keys: Record<string,
 
 export const named_configurations: [string, Record<string, number>][] = [
   ["default", {}],
-  ...Object.entries(configurations).map(([name, { aim, keys }]) => [`${name}: ${aim}`, keys] as [string, Record<string, number>]),
+  ...Object.entries(configurations).map(
+    ([name, { aim, keys }]) => [`${name}: ${aim}`, keys] as [string, Record<string, number>],
+  ),
   ["coarse: s = 8", { significand_bits: 8 }],
   ["coarse grid: 2 sub-pixel bits", { subpixel_bits: 2 }],
   ["tables of degree 1", { sqrt_degree: 1, recip_degree: 1 }],

@@ -33,7 +33,8 @@ function open(): WebGL2RenderingContext {
 function program_of(gl: WebGL2RenderingContext, form: string): WebGLProgram {
   const made = programs.get(form);
   if (made) return made;
-  const head = `#version 300 es\nprecision highp float;\n#define DETERMINANT ${Number(form === "determinant")}\n${mean_value}${paper}`;
+  const define = `#define DETERMINANT ${Number(form === "determinant")}\n`;
+  const head = `#version 300 es\nprecision highp float;\n${define}${mean_value}${paper}`;
   const program = gl.createProgram()!;
   for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
     const shader = gl.createShader(type)!;

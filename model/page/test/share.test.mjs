@@ -113,6 +113,7 @@ test("each key of a slider is in the address by its short name", async () => {
     all.map((row) => ({ id: row.querySelector("input").id, short: row.querySelector("label span").textContent.trim() })));
   assert.ok(rows.length >= 8 && rows.some(({ short }) => short === "s"));
   for (const { id, short } of rows) {
+    assert.ok(short && id !== `key_${short}`, id);
     const value = await page.$eval(`#${id}`, (input) => String(Number(input.value) - 1));
     await page.locator(`#${id}`).fill(value);
     const hash = await page.evaluate(() => window.quadrille.hash());

@@ -237,7 +237,7 @@ TEST_F(OpenGl, AWrongShaderDoesNotAgree) {
       {"sign of w",
        {"fig9_a",
         [](ShaderSource s) {
-          s.fragment = replaced(s.fragment, "sqrt(sx * sx + sy * sy) * w", "sqrt(sx * sx + sy * sy)");
+          s.fragment = replaced(s.fragment, "sqrt(sx * sx + sy * sy) * w_sign", "sqrt(sx * sx + sy * sy)");
           return s;
         }}},
       {"neighbour of t",
