@@ -118,8 +118,8 @@ class CameraParser {
     return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
   }
 
-  const json& field(const std::string& key) const {
-    const auto found = root_.find(key);
+  const json& field(std::string_view key) const {
+    const auto found = root_.find(std::string(key));
     if (found == root_.end())
       throw input_error(name_, 0, "field " + in_quotes(key) + " is missing; " + expected_fields);
     return *found;

@@ -47,9 +47,9 @@ void require_canonical(const std::string& file, const std::string& text, const J
                     "has another form than a manifest (indented by 2, each key once, a newline at the end)");
 }
 
-const Json& member(const std::string& file, const Json& object, const std::string& key) {
-  const auto found = object.find(key);
-  if (found == object.end()) throw input_error(file, 0, "has no \"" + key + "\"");
+const Json& member(const std::string& file, const Json& object, std::string_view key) {
+  const auto found = object.find(std::string(key));
+  if (found == object.end()) throw input_error(file, 0, "has no \"" + std::string(key) + "\"");
   return *found;
 }
 
@@ -74,9 +74,9 @@ int small_member(const std::string& file, const Json& object, const std::string&
   return value.get<int>();
 }
 
-const Json& object_member(const std::string& file, const Json& object, const std::string& key) {
+const Json& object_member(const std::string& file, const Json& object, std::string_view key) {
   const Json& value = member(file, object, key);
-  if (!value.is_object()) throw input_error(file, 0, "\"" + key + "\" is not an object");
+  if (!value.is_object()) throw input_error(file, 0, "\"" + std::string(key) + "\" is not an object");
   return value;
 }
 

@@ -30,11 +30,12 @@ bool plain_name(std::string_view name);
 Json parse_manifest(const std::string& file, const std::string& text);
 
 void require_canonical(const std::string& file, const std::string& text, const Json& json);
-const Json& member(const std::string& file, const Json& object, const std::string& key);
+// `key` is no reference: GCC 14 takes what is returned for a part of a temporary there.
+const Json& member(const std::string& file, const Json& object, std::string_view key);
 std::string text_member(const std::string& file, const Json& object, const std::string& key);
 std::uint64_t count_member(const std::string& file, const Json& object, const std::string& key);
 int small_member(const std::string& file, const Json& object, const std::string& key, int lowest, int highest);
-const Json& object_member(const std::string& file, const Json& object, const std::string& key);
+const Json& object_member(const std::string& file, const Json& object, std::string_view key);
 void only_keys(const std::string& file, const Json& object, std::initializer_list<std::string_view> keys);
 std::string generator();
 void require_format(const std::string& file, const Json& manifest);

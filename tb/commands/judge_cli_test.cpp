@@ -11,16 +11,16 @@ using namespace quadrille::cli_test;
 using nlohmann::json;
 
 class CliJudge : public Cli {};
-constexpr const char* input = "cosim --scene bowtie --size 48x48 --no-alone --no-snapping-error --rtl rtl ";
+constexpr const char* judged = "cosim --scene bowtie --size 48x48 --no-alone --no-snapping-error --rtl rtl ";
 
 /// A last bit of each root: within the bound, and not the model's.
 TEST_F(CliJudge, OwnRoundingPassesTheTruthAndNoLockstep) {
   spoil("quadrille_sqrt.sv", ": poly;", ": {poly[S-1:1], 1'b0};");
-  const Outcome lockstep = run(std::string(input) + "--no-shrink --quiet");
+  const Outcome lockstep = run(std::string(judged) + "--no-shrink --quiet");
   EXPECT_EQ(lockstep.status, 1) << lockstep.err;
   EXPECT_NE(lockstep.err.find("stage sqrt, field sig"), std::string::npos) << lockstep.err;
 
-  const Outcome outcome = run(std::string(input) + "--judge truth --stall 0.3 --gap 0.2 --json r.json");
+  const Outcome outcome = run(std::string(judged) + "--judge truth --stall 0.3 --gap 0.2 --json r.json");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_NE(outcome.out.find("RTL within the bounds of the truth"), std::string::npos) << outcome.out;
@@ -39,8 +39,8 @@ TEST_F(CliJudge, OwnRoundingPassesTheTruthAndNoLockstep) {
 /// Six bits of each root: beyond the bound. What is left of the draw still fails, by the truth.
 TEST_F(CliJudge, BeyondTheBoundFailsBoth) {
   spoil("quadrille_sqrt.sv", ": poly;", ": {poly[S-1:6], 6'b0};");
-  EXPECT_EQ(run(std::string(input) + "--no-shrink --quiet").status, 1);
-  const Outcome outcome = run(std::string(input) + "--judge truth --shrink less.quads --quiet");
+  EXPECT_EQ(run(std::string(judged) + "--no-shrink --quiet").status, 1);
+  const Outcome outcome = run(std::string(judged) + "--judge truth --shrink less.quads --quiet");
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_NE(outcome.err.find(" weights beyond the bound; the worst: quad "), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("lockstep"), std::string::npos) << outcome.err;
@@ -55,7 +55,7 @@ TEST_F(CliJudge, BeyondTheBoundFailsBoth) {
 /// What the truth decides exactly has no bound to hide in.
 TEST_F(CliJudge, CoverageIsExact) {
   spoil("quadrille_inside_expression.sv", "front1 = neg4 & neg0 & neg1", "front1 = neg4 & neg1");
-  const Outcome outcome = run(std::string(input) + "--judge truth --no-shrink --quiet");
+  const Outcome outcome = run(std::string(judged) + "--judge truth --no-shrink --quiet");
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_NE(outcome.err.find(" differences from the truth; the first: "), std::string::npos) << outcome.err;
 }
