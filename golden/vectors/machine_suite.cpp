@@ -268,7 +268,9 @@ std::string MachineSuite::picture_difference(const SuiteReader& reader) const {
   for (std::size_t i = 0; i < draws.size(); ++i) {
     golden::save_exr(again.path, pictures[i].image());
     const std::string given = (reader.directory() / picture_name(i)).string();
-    if (digest_file(again.path).sha256 == reader.manifest().at("files").at(picture_name(i)).at("sha256").get<std::string>()) continue;
+    if (digest_file(again.path).sha256 ==
+        reader.manifest().at("files").at(picture_name(i)).at("sha256").get<std::string>())
+      continue;
     const golden::ImageDiff diff = golden::diff_images(golden::load_exr(again.path), golden::load_exr(given),
                                                        "the picture of the fragments", given);
     for (const golden::ChannelDiff& channel : diff.channels)

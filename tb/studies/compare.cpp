@@ -526,8 +526,8 @@ void add_compare_command(CLI::App& app, Invocation& invocation) {
                "\nWrites sheet.png (a column per method), METHOD.exr, table.json, table.csv and table.md. A crease is "
                "the largest change of an attribute's slope across a quad's diagonal (tb/studies/compare/README.md).",
            "0 done; 2 usage or input error; 3 missing tool",
-           {"compare --scene fig10_convex --out fig10", "compare --scene phong_mesh --methods split02,mvc --out fig11",
-            "compare --scene fig10_concave --crop 180,180,280,280 --zoom 4 --wireframe --out crease",
+           {"compare --scene phong_mesh --methods split02,mvc --out fig11",
+            "compare --scene fig10_concave --crop 180,180,280,280 --out crease",
             "compare --mesh spot.obj --shade uv --plot --out spot"});
   const auto options = std::make_shared<CompareOptions>();
   options->input.add_to(*command);
