@@ -6,14 +6,14 @@
 # Exit status: 0 passed, 1 not, 2 usage.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
-filter='*'
+filter='*' reference=()
 case "${1:-}" in
   clang)
     packages=(clang) compiler=clang++ run=()
     tests=(model/pixel/pixel_engines_test.cpp model/fast/float_lanes_test.cpp model/fast/float_lanes_limits_test.cpp)
     ;;
   arm)
-    packages=(g++-aarch64-linux-gnu qemu-user) compiler=aarch64-linux-gnu-g++ run=(qemu-aarch64)
+    packages=(g++-aarch64-linux-gnu qemu-user) compiler=aarch64-linux-gnu-g++ run=(qemu-aarch64) reference=('golden/reference/*.cpp')
     # Minutes each under QEMU.
     filter='-TruthFilter.*:ExactCoverage.All*:Determinant.AgreesOn*:SnapExactly.*:SnapTies.*:CornerQuads.*:*.AllOfASmallGrid:*TenThousand*:CoverageRows.HoldEvery*:PaperFloat/*.AgreesWithTruth*'
     mapfile -t tests < <(git ls-files 'model/*_test.cpp' 'golden/reference/*_test.cpp' |
@@ -25,7 +25,7 @@ install_packages "${packages[@]}" libgtest-dev
 out=$root/build/lanes_$1
 rm -rf "$out"  # objects of files that are gone
 mkdir -p "$out"
-mapfile -t sources < <(git ls-files 'model/*.cpp' 'golden/scenes/*.cpp' 'golden/reference/*.cpp' |
+mapfile -t sources < <(git ls-files 'model/*.cpp' 'golden/scenes/*.cpp' "${reference[@]}" |
   grep -v '_test\.cpp$\|^model/\(examples\|c_api\|page\|python\)/')
 sources+=("${tests[@]}")
 gtest=/usr/src/googletest/googletest

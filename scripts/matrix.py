@@ -56,7 +56,7 @@ ROWS = {
     "clang14": Row("Clang 14", [built("clang++-14")], {"Clang": "clang++-14 --version"}, packages=["clang-14"]),
     "clang16": Row("Clang 16", [built("clang++-16")], {"Clang": "clang++-16 --version"}, packages=["clang-16"]),
     "x86-64-v2": Row("`-march=x86-64-v2`", [built("g++", "-march=x86-64-v2")], GCC),
-    "avx2": Row("AVX2 alone", ["scripts/cosim.sh --lanes v3", "QUADRILLE_LANES=v3 scripts/test.sh --quick"], GCC),
+    "avx2": Row("AVX2 alone", ["QUADRILLE_LANES=v3 scripts/cosim.sh", "QUADRILLE_LANES=v3 scripts/test.sh --quick"], GCC),
     "aarch64": Row("aarch64, by QEMU", ["scripts/lanes_test.sh arm"], {"GCC": "aarch64-linux-gnu-g++ -dumpfullversion", "QEMU": "qemu-aarch64 --version"},
                    packages=["g++-aarch64-linux-gnu", "qemu-user"]),
 }
