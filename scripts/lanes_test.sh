@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Tests of the model where the other tests cannot run:
 #   lanes_test.sh clang   its lanes, bit for bit, as Clang compiles them
-#   lanes_test.sh arm     all tests of the model and of the truth, as GCC compiles them for aarch64, run by QEMU;
-#                         without the slow ones
+#   lanes_test.sh arm     all tests of the model and of the truth, and that generators make the same bytes, as GCC
+#                         compiles them for aarch64, run by QEMU; without the slow ones
 # Exit status: 0 passed, 1 not, 2 usage.
 set -euo pipefail
 source "$(dirname "$0")/setup.sh"
@@ -16,7 +16,7 @@ case "${1:-}" in
     packages=(g++-aarch64-linux-gnu qemu-user) compiler=aarch64-linux-gnu-g++ run=(qemu-aarch64) reference=('golden/reference/*.cpp')
     # Minutes each under QEMU.
     filter='-TruthFilter.*:ExactCoverage.All*:Determinant.AgreesOn*:SnapExactly.*:SnapTies.*:CornerQuads.*:*.AllOfASmallGrid:*TenThousand*:CoverageRows.HoldEvery*:PaperFloat/*.AgreesWithTruth*'
-    mapfile -t tests < <(git ls-files 'model/*_test.cpp' 'golden/reference/*_test.cpp' |
+    mapfile -t tests < <(git ls-files 'model/*_test.cpp' 'golden/reference/*_test.cpp' golden/scenes/{same_bytes,corner_boundaries,corner_values}_test.cpp |
       grep -v '^model/\(page\|python\|c_api\)/\|invariants_test\|key_traits_test')  # these need more than GoogleTest
     ;;
   *) sed -n '2,6s/^# //p' "$0" >&2; exit 2 ;;

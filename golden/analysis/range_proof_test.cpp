@@ -215,8 +215,8 @@ TEST(RangeProof, HoldsWhatThePipelineComputes) {
           }
           for (const std::uint64_t v : setup.length2) inside("length2", static_cast<double>(v));
           PixelTrace p;
-          pixel_pipeline(p, tile, constants, data, static_cast<int>(rng.below(8)), static_cast<int>(rng.below(8)),
-                         context);
+          const auto row = static_cast<int>(rng.below(8)), dx = static_cast<int>(rng.below(8));
+          pixel_pipeline(p, tile, constants, data, dx, row, context);
           ++pixels;
           for (std::size_t k = 0; k < 6; ++k) {
             inside("A", static_cast<double>(p.a[k]));

@@ -55,15 +55,15 @@ TEST_F(FragmentCsvTest, RealsAreThoseOfPrintfAndReadBack) {
     rows[i].flags = 0xffffffff;
     rows[i].x = rows[i].y = 0xffff;
     const auto number = [&] {
-      return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())),
-                        static_cast<int>(random() % 2000) - 1063);
+      const int exponent = static_cast<int>(random() % 2000) - 1063;
+      return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), exponent);
     };
     for (double& value : rows[i].lambda) value = number();
     rows[i].z = number();
     for (double& value : rows[i].attribute) value = number();
   }
   rows[0].attribute[0] = std::numeric_limits<double>::max();
-  rows[0].attribute[1] = -std::numeric_limits<double>::denorm_min();
+  rows[0].attribute[1] = -0x1p-1074;
   save_fragment_csv(path("a"), rows, {.attributes = std::vector<std::string>(max_attribute_slots, "a"), .depth = true});
   std::istringstream in(read(path("a")));
   std::string line, field;

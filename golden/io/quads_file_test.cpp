@@ -14,7 +14,8 @@ const std::string good = "0 0 0 1  8 0 0 1  8 8 0 1  0 8 0 1  0 1 2 3";
 std::vector<WindowQuad> random_quads(std::size_t count, std::size_t attributes) {
   std::mt19937_64 random(7);
   const auto number = [&] {
-    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), static_cast<int>(random() % 70) - 63);
+    const int exponent = static_cast<int>(random() % 70) - 63;
+    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), exponent);
   };
   std::vector<WindowQuad> quads(count);
   for (std::size_t i = 0; i < count; ++i) {

@@ -193,9 +193,11 @@ inline Quad renumbered(const Quad& quad, std::size_t first, bool reverse) {
 inline std::vector<Quad> quad_mesh(Prng& prng, std::size_t columns, std::size_t rows, auto&& point) {
   std::vector<Quad> quads;
   for (std::size_t j = 0; j < rows; ++j)
-    for (std::size_t i = 0; i < columns; ++i)
+    for (std::size_t i = 0; i < columns; ++i) {
+      const bool turned = prng.chance(0.5);
       quads.push_back(renumbered(centred_quad({point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)}),
-                                 prng.below(4), prng.chance(0.5)));
+                                 prng.below(4), turned));
+    }
   return quads;
 }
 

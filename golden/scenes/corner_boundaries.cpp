@@ -125,7 +125,8 @@ void coarse_depth(Batch& b) {
     // From tile to tile, of which a few are covered whole.
     const int half = b.rng.chance(0.4) ? tile / 2 : 0;  // two of which make one
     const int x = tile * b.integer(0, 2) + half, y = tile * b.integer(0, 2);
-    std::array<WindowVertex, 4> quad = rectangle(x, y, x + tile * b.integer(1, 3), y + tile * b.integer(1, 3), z);
+    const int bottom = y + tile * b.integer(1, 3), right = x + tile * b.integer(1, 3);
+    std::array<WindowVertex, 4> quad = rectangle(x, y, right, bottom, z);
     if (count % 5 == 4) quad[2].z += code_depth(b, coarse * b.integer(-1, 1) + b.integer(-1, 1));
     if (count % 7 == 6) quad[2].x -= b.integer(1, tile);  // part of a tile
     b.quads.push_back(quad);

@@ -82,7 +82,10 @@ WindowQuad random_quad(golden::Prng& random, int family, double edge, int attrib
       for (int i = 0; i < 4; ++i) perspective(i, random.uniform(-1, 1));
       break;
     case 9:  // one or two vertices behind the eye
-      for (int i = 0; i < pick(random, 1, 2); ++i) perspective(pick(random, 0, 3), random.uniform(-1, -0.1));
+      for (int i = 0; i < pick(random, 1, 2); ++i) {
+        const double w = random.uniform(-1, -0.1);
+        perspective(pick(random, 0, 3), w);
+      }
       break;
     case 10: {  // at infinity
       WindowVertex& v = q.vertex[static_cast<std::size_t>(pick(random, 0, 3))];

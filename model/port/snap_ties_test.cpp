@@ -24,7 +24,8 @@ TEST(SnapTies, OfPositions) {
   Prng rng(12);
   for (int n = 0; n < 200; ++n) {
     const auto place = static_cast<std::int32_t>(rng.integer(-100'000, 100'000));
-    const double w = std::ldexp(rng.chance(0.5) ? 3 : 5, static_cast<int>(rng.integer(-8, 8)));
+    const auto octave = static_cast<int>(rng.integer(-8, 8));
+    const double w = std::ldexp(rng.chance(0.5) ? 3 : 5, octave);
     const auto tied = around(w * (0.5 + (place + 0.5) / 256));
     const std::int32_t even = place + (place & 1);
     for (std::size_t side = 0; side < 3; ++side) {

@@ -191,7 +191,8 @@ std::vector<PlannedDraw> layers(const Config& config, std::uint64_t seed) {
       const double z = rng.chance(0.3)   ? wall + step * static_cast<double>(rng.integer(-3, 3))
                        : rng.chance(0.8) ? rng.uniform(wall, 0.95)
                                          : rng.uniform(0.02, wall);
-      add(x, x + rng.uniform(-4, 4), x + w, x + w, y, y + h, z, rng.chance(0.3) ? rng.uniform(-0.1, 0.1) : 0);
+      const double slope = rng.chance(0.3) ? rng.uniform(-0.1, 0.1) : 0;
+      add(x, x + rng.uniform(-4, 4), x + w, x + w, y, y + h, z, slope);
     }
   }
   return plan_draws(quads, count, config, width, height, seed);

@@ -104,9 +104,11 @@ class StageCheck {
         else
           set(last, third, -1, 0);
         break;
-      case 6:  // D = 0 on an edge, or on a diagonal
-        set(rng_.chance(0.5) ? next : third, first, 0, rng_.chance(0.5) ? 1 : -1);
+      case 6: {  // D = 0 on an edge, or on a diagonal
+        const int turn = rng_.chance(0.5) ? 1 : -1;
+        set(rng_.chance(0.5) ? next : third, first, 0, turn);
         break;
+      }
       default:
         break;
     }

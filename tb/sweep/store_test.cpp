@@ -53,7 +53,7 @@ class StoreTest : public testing::Test {
     b.results.resize(2);
     PointResult& r = b.results[0];
     r.fragments = 12345678901234567;
-    r.arithmetic[0] = {7, 0x1.fffffffffffffp-20, 1.0 / 3, std::numeric_limits<double>::denorm_min(), 0.1};
+    r.arithmetic[0] = {7, 0x1.fffffffffffffp-20, 1.0 / 3, 0x1p-1074, 0.1};
     r.arithmetic[2] = {3, std::numeric_limits<double>::infinity(), 1, 2, 3};
     r.snapping[3] = {1, 1e-300, 0, 0, 0};
     r.coverage_gained = 1, r.coverage_lost = 2, r.discard_differs = 3, r.colour_codes = 4, r.saturated = 5,
