@@ -13,7 +13,7 @@ case "${1:-}" in
     tests=(model/pixel/pixel_engines_test.cpp model/fast/float_lanes_test.cpp model/fast/float_lanes_limits_test.cpp)
     ;;
   arm)
-    packages=(g++-aarch64-linux-gnu qemu-user) compiler=aarch64-linux-gnu-g++ run=(qemu-aarch64) reference=('golden/reference/*.cpp')
+    packages=(g++-aarch64-linux-gnu qemu-user) compiler=aarch64-linux-gnu-g++ run=(qemu-aarch64 -L /usr/aarch64-linux-gnu) reference=('golden/reference/*.cpp')
     # Minutes each under QEMU.
     filter='-TruthFilter.*:ExactCoverage.All*:Determinant.AgreesOn*:SnapExactly.*:SnapTies.*:CornerQuads.*:*.AllOfASmallGrid:*TenThousand*:CoverageRows.HoldEvery*:PaperFloat/*.AgreesWithTruth*'
     mapfile -t tests < <(git ls-files 'model/*_test.cpp' 'golden/reference/*_test.cpp' golden/scenes/{same_bytes,corner_boundaries,corner_values}_test.cpp |
@@ -33,5 +33,7 @@ compile() { "$compiler" -std=gnu++20 -O2 -ffp-contract=off -frounding-math -Wno-
 export -f compile
 export compiler gtest out root
 printf '%s\n' "${sources[@]}" "$gtest/src/gtest-all.cc" "$gtest/src/gtest_main.cc" | xargs -P "$(nproc)" -I{} bash -ec 'compile {}'
-"$compiler" -static "$out"/*.o -o "$out/lanes_test" 2>"$out/link.log" || { cat "$out/link.log" >&2; exit 1; }
-"${run[@]}" "$out/lanes_test" --gtest_brief=1 --gtest_filter="$filter" || exit 1
+"$compiler" "$out"/*.o -o "$out/lanes_test" 2>"$out/link.log" || { cat "$out/link.log" >&2; exit 1; }
+export GTEST_TOTAL_SHARDS=$((8 * $(nproc)))  # a crash of one ends none of the others
+seq 0 $((GTEST_TOTAL_SHARDS - 1)) | xargs -P "$(nproc)" -I{} \
+  env GTEST_SHARD_INDEX={} sh -c '"$@" || exit 1' run "${run[@]}" "$out/lanes_test" --gtest_brief=1 --gtest_filter="$filter" || exit 1

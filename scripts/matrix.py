@@ -88,21 +88,23 @@ def main():
 def run_row(name, row):
     os.makedirs(OUT, exist_ok=True)
     start = time.monotonic()
+    result = {"versions": [], "done": [], "failed": None, "commit": commit()}
     with open(os.path.join(OUT, f"{name}.log"), "w", encoding="utf-8") as log:
         place = Chroot(name, row.release, log) if row.release else Here(row.packages, log)
         with place:
-            done = []
             for command in row.commands:
                 print(f"{name}: {command}", flush=True)
                 if place.run(command):
-                    done.append(command)
+                    result["done"].append(command)
                 else:
+                    result["failed"] = command
+                result["versions"] = [f"{tool} {version(place.output(command))}" for tool, command in row.tools.items()]
+                result["minutes"] = round((time.monotonic() - start) / 60)
+                # After each: a row that is interrupted has what it came to.
+                write_text(os.path.join(OUT, f"{name}.json"), json.dumps(result, indent=1) + "\n")
+                if result["failed"]:
                     break
-            versions = [f"{tool} {version(place.output(command))}" for tool, command in row.tools.items()]
-    passed = len(done) == len(row.commands)
-    result = {"versions": versions, "done": done, "failed": None if passed else row.commands[len(done)], "commit": commit(),
-              "minutes": round((time.monotonic() - start) / 60)}
-    write_text(os.path.join(OUT, f"{name}.json"), json.dumps(result, indent=1) + "\n")
+    passed = not result["failed"]
     print(f"{name}: {'passed' if passed else 'FAILED, see ' + os.path.relpath(log.name)}", flush=True)
     return passed
 
@@ -173,19 +175,25 @@ def commit():
     return subprocess.run(["git", "rev-parse", "--short=8", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
 
 
+def outcome(row, result):
+    if result["failed"]:
+        return f"failed at `{result['failed']}`"
+    rest = [command for command in row.commands if command not in result["done"]]
+    return "passed" if not rest else f"passed {', '.join(f'`{c}`' for c in result['done'])}; not run: {', '.join(f'`{c}`' for c in rest)}"
+
+
 def page():
     lines = ["# Systems, compilers and tools tried", "",
              "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone.", "",
-             "| row | versions | result | failed at | minutes | commit |", "|---|---|---|---|---|---|"]
+             "| row | versions | result | minutes | commit |", "|---|---|---|---|---|"]
     for name, row in ROWS.items():
         path = os.path.join(OUT, f"{name}.json")
         if not os.path.exists(path):
-            lines.append(f"| {row.what} | | not run | | | |")
+            lines.append(f"| {row.what} | | not run | | |")
             continue
         with open(path, encoding="utf-8") as file:
             r = json.load(file)
-        lines.append(f"| {row.what} | {', '.join(r['versions'])} | {'failed' if r['failed'] else 'passed'} | "
-                     f"{'`' + r['failed'] + '`' if r['failed'] else ''} | {r['minutes']} | {r['commit']} |")
+        lines.append(f"| {row.what} | {', '.join(r['versions'])} | {outcome(row, r)} | {r['minutes']} | {r['commit']} |")
     return "\n".join(lines) + "\n"
 
 
