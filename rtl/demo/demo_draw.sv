@@ -15,8 +15,8 @@ module demo_draw #(
 );
   localparam int WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, PLACE = $clog2(PIXELS);
   localparam int BEATS = POSES * QUADS * 4, BEAT = $clog2(BEATS), VERTEX = quadrille_pkg::VERTEX_BITS;
-  localparam int V = quadrille_pkg::VIEWPORT_BITS, DB = quadrille_pkg::DEPTH_BITS, F = quadrille_pkg::ATTRIBUTE_FRAC_BITS;
-  localparam int AO = quadrille_pkg::ATTR_OUT_BITS;
+  localparam int V = quadrille_pkg::VIEWPORT_BITS, DB = quadrille_pkg::DEPTH_BITS;
+  localparam int F = quadrille_pkg::ATTRIBUTE_FRAC_BITS, AO = quadrille_pkg::ATTR_OUT_BITS;
   localparam logic [7:0] BACKGROUND = 8'b001_001_01;
 
   function automatic logic [PLACE-1:0] place(input logic [8:0] x, input logic [7:0] y);
@@ -110,12 +110,12 @@ module demo_draw #(
     logic [AO-1:0] v, u;
   } fragment;
   /* verilator lint_on UNUSEDSIGNAL */
-  logic fragment_valid, fragment_ready, busy;
+  logic fragment_valid, busy;
   /* verilator lint_off PINCONNECTEMPTY */
   quadrille u_quadrille (
       .clk_i, .rst_ni, .state_i(state), .clear_hidden_i(1'b0), .flush_i(1'b0), .vertex_i(vertex_q),
       .vertex_valid_i(valid_q), .vertex_ready_o(ready), .fragment_o(fragment), .fragment_mask_o(),
-      .fragment_valid_o(fragment_valid), .fragment_ready_i(fragment_ready), .busy_o(busy), .counter_index_i('0),
+      .fragment_valid_o(fragment_valid), .fragment_ready_i(1'b1), .busy_o(busy), .counter_index_i('0),
       .counter_o()
   );
   /* verilator lint_on PINCONNECTEMPTY */
@@ -133,7 +133,7 @@ module demo_draw #(
   assign colour = u[0] ^ v[0] ? {u, v, 2'b11} : {1'b0, u[2:1], 1'b0, v[2:1], 2'b01};
 
   // ---- Depth test: a clock reads the depth, the next compares and writes -------------------------------------------
-  // A fragment waits while the one before it is at the same place.
+  // The next fragment may not be at the same place then. It never is: the end of a quad takes a clock of its own.
   logic test_q, pass, write;
   logic [PLACE-1:0] here, place_q, write_place, read_place;
   logic [DB:0] depth_q;
@@ -141,15 +141,17 @@ module demo_draw #(
   logic [7:0] colour_q;
   logic [15:0] colours;
   assign here = place(9'(fragment.x), 8'(fragment.y));
-  assign fragment_ready = !(test_q && here == place_q);
   assign pass = test_q && depth_q < {1'b0, stored};
   assign drawn = sent_q && !busy && !test_q;
 
   always_ff @(posedge clk_i) begin
-    test_q <= rst_ni && fragment_valid && fragment_ready;
+    test_q <= rst_ni && fragment_valid;
     place_q <= here;
     depth_q <= fragment.depth;
     colour_q <= colour;
+`ifndef SYNTHESIS
+    assert (!(test_q && fragment_valid && here == place_q)) else $error("two fragments of a place follow each other");
+`endif
   end
 
   assign write = step_q == CLEAR || pass;

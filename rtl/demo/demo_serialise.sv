@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words of 10 bits to pins, two bits in a clock of shift_clk_i, which is five times clk_i from the same PLL; their phase
-// does not matter. A bit that toggles with the words is followed for two clocks, so a word is taken in its middle.
+// Words of 10 bits to pins, two bits in a clock of shift_clk_i. It has five times the rate of clk_i, from the same PLL,
+// at any phase: a bit toggles with the words, and a word is taken two to three clocks after it.
 module demo_serialise (
     input logic clk_i,
     input logic shift_clk_i,

@@ -1,10 +1,10 @@
-"""Quads of the demo, four for each pose of a turn: floor, convex, concave and crossed quad, with u and v."""
+"""Quads of the demo, four for each pose of a turn: crossed, concave, convex quad and floor, with u and v."""
 import math
 
 POSES, QUADS, SIZE = 64, 4, (320, 240)
 FOCAL, NEAR, FAR, PITCH = 230.0, 0.5, 12.0, -0.32  # pixels; units along the view; the camera looks down by PITCH radians
-UV = ((0, 0), (1, 0), (1, 1), (0, 1))
-FLOOR = ((-3.2, -3.2), (3.2, -3.2), (3.2, 3.2), (-3.2, 3.2))
+UV = ((-0.02, -0.02), (1.02, -0.02), (1.02, 1.02), (-0.02, 1.02))  # a little beyond 0 and 1, which colours are clamped to
+FLOOR = ((-4.2, -4.2), (4.2, -4.2), (4.2, 4.2), (-4.2, 4.2))  # a corner comes behind the eye
 CONVEX = ((-0.9, -0.6), (0.7, -0.9), (1.0, 0.8), (-0.5, 1.0))
 CONCAVE = ((0.0, -0.25), (1.1, -0.9), (0.0, 1.2), (-1.1, -0.9))
 CROSSED = ((-0.8, -0.8), (0.8, 0.8), (0.8, -0.8), (-0.8, 0.8))
@@ -36,11 +36,11 @@ def upright(corners, angle, spin, at):
 
 
 def pose(number):
-    turn = 2 * math.pi * number / POSES
-    yield flat(FLOOR, turn, (0.0, -2.3, 4.4))
-    yield upright(CONVEX, turn, 0.0, (-1.15, -1.1, 4.4))
-    yield upright(CONCAVE, 0.5 - turn, turn, (0.1, -0.9, 4.2))
+    turn = 2 * math.pi * (number + 9) / POSES  # the first poses have quads through each other
     yield upright(CROSSED, 0.4 * math.sin(turn), -turn, (1.2, -1.2, 4.0))
+    yield upright(CONCAVE, 0.5 - turn, turn, (0.1, -0.9, 4.2))
+    yield upright(CONVEX, turn, 0.0, (-1.15, -1.1, 4.4))
+    yield flat(FLOOR, turn, (0.0, -2.3, 4.4))
 
 
 def text(numbers):

@@ -53,7 +53,8 @@ Word Decode(unsigned bits) {
 
 class Screen {
  public:
-  Screen(unsigned frames, const char* path) : frames_(frames), file_(path, std::ios::binary), pixels_(kWidth * kHeight * 3) {}
+  Screen(unsigned frames, const char* path)
+      : frames_(frames), file_(path, std::ios::binary), pixels_(kWidth * kHeight * 3) {}
 
   bool Done() const { return written_ == frames_ || errors_ > 10; }
 
@@ -66,15 +67,17 @@ class Screen {
       CheckBalance(c, channels[c], bits[c]);
     }
     const bool vsync = channels[0].control == 0 || channels[0].control == 1;  // low
-    if (line_ == kLines) {  // the first sync says where the words are
+    if (line_ == kLines) {                                                    // the first sync says where the words are
       if (!vsync) return;
       column_ = 0;
       line_ = kVsyncBegin;
     }
     const bool visible = column_ < kWidth && line_ < kHeight;
-    const int syncs = (line_ >= kVsyncBegin && line_ < kVsyncEnd ? 0 : 2) + (column_ >= kHsyncBegin && column_ < kHsyncEnd ? 0 : 1);
+    const int syncs =
+        (line_ >= kVsyncBegin && line_ < kVsyncEnd ? 0 : 2) + (column_ >= kHsyncBegin && column_ < kHsyncEnd ? 0 : 1);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (channels[c].control != (visible ? -1 : c == 0 ? syncs : 0)) Error("a word that the timing does not have here");
+      if (channels[c].control != (visible ? -1 : c == 0 ? syncs : 0))
+        Error("a word that the timing does not have here");
       if (visible) pixels_[(line_ * kWidth + column_) * 3 + (2 - c)] = channels[c].byte;
     }
     if (bits[3] != kClock) Error("the clock's word");
