@@ -19,17 +19,27 @@ EDITS = {
         ("OVERRIDE_STAGE /*verilator public*/ = N_STAGE + 1;", "OVERRIDE_STAGE /*verilator public*/ = DIFF_STAGE + 2;"),
         ("WEIGHT_STAGE /*verilator public*/ = OVERRIDE_STAGE + PRODUCT_STAGES + FP_ADD_STAGES + 1;", "WEIGHT_STAGE /*verilator public*/ = NORM_STAGE;"),
     ],
-    # Three beats.
+    # Three beats, vertex 3 is 0.
     "quadrille_vertex_assembly.sv": [
         ("count_q <= count_q + 2'd1;", "count_q <= count_q == 2'd2 ? 2'd0 : count_q + 2'd1;"),
         ("accept && count_q == 2'd3 && !flush_i", "accept && count_q == 2'd2 && !flush_i"),
+        ("{id, x, y, w, ordinary,", "{id, {T'(0), x[3*T-1:0]}, {T'(0), y[3*T-1:0]}, {W'(0), w[3*W-1:0]}, ordinary,"),
+        ("w_negs, w_exps, w_sigs, k_exp, k_sig, z_neg,\n      z_exp, z_sig, attr,",
+         "1'b0, w_negs[2:0], PE'(0), w_exps[3*PE-1:0], S'(0), w_sigs[3*S-1:0], PE'(0),\n      k_exp[3*PE-1:0], S'(0), k_sig[3*S-1:0], 1'b0, z_neg[2:0], "
+         "PE'(0), z_exp[3*PE-1:0], S'(0),\n      z_sig[3*S-1:0], ATTR'(0), attr[2*ATTR-1:0],"),
     ],
-    # The last step has an edge, whose reach comes a clock later, as with two pairs of units. Functions 2, 3, 5 are 0.
+    # The last step has an edge, whose reach comes a clock later, as with two pairs of units. Functions 2, 3, 5 are 0. Vertices are for no
+    # tile, and nobody asks whether they miss the scissor.
     "quadrille_quad_setup.sv": [
         ("END_CLOCKS = CLOCKS + PAIRS - 1;", "END_CLOCKS = CLOCKS + 1;"),
         ("(!run_q || (PAIRS == 1 && run_end))", "!run_q"),
+        ("front_row_q, jobs.x, jobs.y, jobs.w};", "front_row_q, (4 * (2 * T + W))'(0)};"),
+        ("{4{cornered && !sum_ordinary && !hull}}", "4'b0"),
         ("setup_linear,\n      setup_ties,", "setup_linear & {{VAL{1'b0}}, {VAL{1'b1}}, {2*VAL{1'b0}}, {2*VAL{1'b1}},\n"
          "      {2{{GRAD{1'b0}}, {GRAD{1'b1}}, {2*GRAD{1'b0}}, {2*GRAD{1'b1}}}}}, setup_ties & 10'b1001110011,"),
+    ],
+    "quadrille_walk_values.sv": [
+        ("lin_value_q1[g*VAL+:VAL] <= tile_q;", "lin_value_q1[g*VAL+:VAL] <= (g < 2 || g == 4) ? tile_q : '0;"),
     ],
     # No squared lengths, dot products, squares, moves.
     "quadrille_vertex_products.sv": [

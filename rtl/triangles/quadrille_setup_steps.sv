@@ -54,12 +54,12 @@ module quadrille_setup_steps #(
 
   // ---- Vertices relative to the origin pixel -----------------------------------------------------------------------
   logic [T-1:0] origin_x, origin_y;
-  logic [4*T-1:0] tx_q, ty_q;
-  logic [4*W-1:0] w_q;
+  logic [3*T-1:0] tx_q, ty_q;
+  logic [3*W-1:0] w_q;
   assign origin_x = T'(tile_x0_i) << (quadrille_pkg::TILE_LOG2 + quadrille_pkg::FRAC);
   assign origin_y = T'(tile_y0_i) << (quadrille_pkg::TILE_LOG2 + quadrille_pkg::FRAC);
 
-  for (genvar g = 0; g < 4; g++) begin : gen_vertex
+  for (genvar g = 0; g < 3; g++) begin : gen_vertex
     always_ff @(posedge clk_i) begin
       if (start_i) begin
         tx_q[g*T+:T] <= quad.x[g*T+:T] - origin_x;
@@ -75,7 +75,7 @@ module quadrille_setup_steps #(
   assign kind = is_edge ? quadrille_pkg::EDGE : is_gradient ? quadrille_pkg::EDGE_GRADIENT :
       second_o ? quadrille_pkg::DET_VALUE : quadrille_pkg::DET_GRADIENT;
   assign job_function = is_det ? 4'd8 : {1'b0, group_o};
-  assign jobs_o = {kind, job_function, tx_q, ty_q, w_q, (2 * (V + 1))'(0)};
+  assign jobs_o = {kind, job_function, T'(0), tx_q, T'(0), ty_q, W'(0), w_q, (2 * (V + 1))'(0)};
   assign edges_o = {lin_value_i[0+:VAL], lin_gx_i[0+:GRAD], lin_gy_i[0+:GRAD]};
 
   logic unused;
