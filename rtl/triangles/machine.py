@@ -41,6 +41,10 @@ EDITS = {
     "quadrille_walk_values.sv": [
         ("lin_value_q1[g*VAL+:VAL] <= tile_q;", "lin_value_q1[g*VAL+:VAL] <= (g < 2 || g == 4) ? tile_q : '0;"),
     ],
+    # Counters of products are not the machine's; those of clocks, triangles, tiles and pixels are.
+    "quadrille_performance_counters.sv": [
+        ("DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)", "DEPTH(1)"),
+    ],
     # No squared lengths, dot products, squares, moves.
     "quadrille_vertex_products.sv": [
         ("{apart_x, apart_x, apart_y, apart_y}", "{w_i, x_j, x_i, w_j}"),
