@@ -1,5 +1,5 @@
-// triangles_bench: the quad machine and the triangle machine draw the same inputs, each quad as two triangles. Clocks of
-// the quad machine are the clocked model's, which are the RTL's; those of the triangle machine its RTL's.
+// triangles_bench: the quad machine and the triangle machine draw the same inputs, each quad as two triangles. Clocks
+// of the quad machine are the clocked model's, which are the RTL's; those of the triangle machine its RTL's.
 #include "golden/io/json_report.hpp"
 #include "golden/reference/truth.hpp"
 #include "tb/commands/counters_report.hpp"
@@ -132,7 +132,8 @@ int run(int argc, char** argv) {
   app.add_option("input", inputs, "Scenes, or meshes *.obj")->required();
   CLI11_PARSE(app, argc, argv);
   const TrianglesBench bench(common);
-  nlohmann::ordered_json json = golden::begin_report(bench.config(), common.seed, std::vector<std::string>(argv + 1, argv + argc));
+  nlohmann::ordered_json json =
+      golden::begin_report(bench.config(), common.seed, std::vector<std::string>(argv + 1, argv + argc));
   std::FILE* text = common.text();
   if (text != nullptr)
     std::fprintf(text, "%-22s %-9s %8s %9s %9s %13s %12s  %-9s %s\n", "", "machine", "drawn", "pixels", "clocks",

@@ -79,14 +79,13 @@ TEST_P(TriangleMachineTest, EqualsExactArithmetic) {
   std::vector<std::map<std::pair<int, int>, Fragment>> drawn(triangles.size());
   std::uint32_t last = 0;
   const TriangleMachine machine(config, QUADRILLE_TRIANGLES);
-  machine.draw(
-      triangles, state,
-      [&](const Fragment& fragment) {
-        ASSERT_GE(fragment.quad, last) << "triangles in their order";
-        last = fragment.quad;
-        ASSERT_TRUE(drawn.at(last).try_emplace({fragment.y, fragment.x}, fragment).second) << "drawn twice";
-      },
-      {c.waits ? 7u : 1u, c.waits ? 0.3 : 0, c.waits ? 0.4 : 0});
+  machine.draw(triangles, state,
+               [&](const Fragment& fragment) {
+                 ASSERT_GE(fragment.quad, last) << "triangles in their order";
+                 last = fragment.quad;
+                 ASSERT_TRUE(drawn.at(last).try_emplace({fragment.y, fragment.x}, fragment).second) << "drawn twice";
+               },
+               {c.waits ? 7u : 1u, c.waits ? 0.3 : 0, c.waits ? 0.4 : 0});
 
   const Bounds bounds(config);
   const FixedPoint attributes = attribute_format(config), depths = depth_format(config);
@@ -114,8 +113,7 @@ TEST_P(TriangleMachineTest, EqualsExactArithmetic) {
         const double by_w = cut ? bounds.value_of_cut_w : bounds.value;
         for (std::size_t slot = 0; slot < slots; ++slot)
           near(attributes, fragment.attribute[slot] - triangle.base.attribute[slot], pixel->attribute_above[slot],
-               (state.perspective ? bounds.value : by_w) *
-                   attribute_spread(triangle, slot, config, state.perspective));
+               (state.perspective ? bounds.value : by_w) * attribute_spread(triangle, slot, config, state.perspective));
         if (state.depth)
           near(depths, std::int64_t{fragment.depth} - triangle.base.depth, pixel->depth_above,
                by_w * depth_spread(triangle, config));
@@ -138,9 +136,15 @@ const Case cases[] = {
     {"outside", {}, Kind::outside, true, Cull::none, true},
     {"behind", {}, Kind::behind, true, Cull::front, true},
     {"no_skips", {}, Kind::behind, true, Cull::none, false, false},
-    {"colour8", {{"viewport_bits", 11}, {"significand_bits", 11}, {"align_guard_bits", 1}, {"depth_bits", 16}},
-     Kind::ordinary, true},
-    {"wide", {{"significand_bits", 24}, {"pixels_per_clock", 4}, {"tile_log2", 4}}, Kind::outside, true, Cull::none,
+    {"colour8",
+     {{"viewport_bits", 11}, {"significand_bits", 11}, {"align_guard_bits", 1}, {"depth_bits", 16}},
+     Kind::ordinary,
+     true},
+    {"wide",
+     {{"significand_bits", 24}, {"pixels_per_clock", 4}, {"tile_log2", 4}},
+     Kind::outside,
+     true,
+     Cull::none,
      true},
 };
 INSTANTIATE_TEST_SUITE_P(Triangles, TriangleMachineTest, testing::ValuesIn(cases),
