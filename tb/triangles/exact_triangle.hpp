@@ -6,6 +6,7 @@
 #include "model/port/config.hpp"
 #include "tb/triangles/machine.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -17,10 +18,16 @@ __extension__ using Real = __float128;
 
 class ExactTriangle {
  public:
+  /// A weighted mean of the corners' differences to the base, and what its error depends on.
+  struct Mean {
+    double value = 0;
+    double moved = 0;    ///< sum of weight |difference - value|: what relative errors of the weights move
+    double largest = 0;  ///< of the terms
+  };
   struct Pixel {
     bool front = false, on_edge = false;
-    std::array<double, max_attribute_slots> attribute_above{};  ///< without the base
-    double depth_above = 0;
+    std::array<Mean, max_attribute_slots> attribute{};
+    Mean depth;
   };
 
   ExactTriangle(const SnappedTriangle& triangle, const Config& config, const DrawState& state)
@@ -56,22 +63,32 @@ class ExactTriangle {
  private:
   void fill(Pixel& pixel, const std::array<Wide, 3>& value) const {
     const int s = config_.significand_bits;
-    std::array<Real, max_attribute_slots> attribute{};
-    Real k = 0, w = 0, z = 0;
+    std::array<Real, 3> by_k{}, by_w{};
+    std::array<std::array<Real, 3>, max_attribute_slots> attribute{};
+    std::array<Real, 3> z{};
     for (std::size_t i = 0; i < 3; ++i) {
       const SnappedVertex& v = triangle_.vertex[i];
       const Wide opposite = value[(i + 1) % 3];
       const Real area = static_cast<Real>(opposite < 0 ? -opposite : opposite);
-      const Real real_w = std::ldexp(v.w, -config_.frac());
-      k += area * (state_.perspective ? Real{golden::port_value(v.k, s)} : real_w);
-      w += area * real_w;
-      z += area * golden::port_value(v.z, s);
+      by_w[i] = area * std::ldexp(v.w, -config_.frac());
+      by_k[i] = state_.perspective ? area * golden::port_value(v.k, s) : by_w[i];
+      z[i] = area * golden::port_value(v.z, s);
       for (std::size_t slot = 0; i != 0 && slot < attribute.size(); ++slot)
-        attribute[slot] += area * golden::port_value(v.attribute[slot], s);
+        attribute[slot][i] = area * golden::port_value(v.attribute[slot], s);
     }
-    for (std::size_t slot = 0; slot < attribute.size(); ++slot)
-      pixel.attribute_above[slot] = static_cast<double>(attribute[slot] / k);
-    pixel.depth_above = static_cast<double>(z / w);
+    for (std::size_t slot = 0; slot < attribute.size(); ++slot) pixel.attribute[slot] = mean(attribute[slot], by_k);
+    pixel.depth = mean(z, by_w);
+  }
+
+  static Mean mean(const std::array<Real, 3>& terms, const std::array<Real, 3>& weights) {
+    const Real sum = weights[0] + weights[1] + weights[2], value = (terms[0] + terms[1] + terms[2]) / sum;
+    Mean mean;
+    mean.value = static_cast<double>(value);
+    for (std::size_t i = 0; i < 3; ++i) {
+      mean.moved += std::fabs(static_cast<double>((terms[i] - weights[i] * value) / sum));
+      mean.largest = std::max(mean.largest, std::fabs(static_cast<double>(terms[i] / sum)));
+    }
+    return mean;
   }
 
   const SnappedTriangle& triangle_;

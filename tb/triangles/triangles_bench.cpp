@@ -64,14 +64,14 @@ class TrianglesBench {
     return config;
   }
 
-  /// Of the attributes that the output has not clamped.
+  /// `exact`: of a slot, without its base. What the output has clamped does not count.
   template <class Exact>
-  void compare(const Fragment& fragment, const QuadBase& base, const DrawState& state, const Exact& exact_above,
+  void compare(const Fragment& fragment, const QuadBase& base, const DrawState& state, const Exact& exact,
                double& error) const {
     for (std::size_t slot = 0; slot < static_cast<std::size_t>(state.attributes); ++slot) {
       const auto above = static_cast<double>(fragment.attribute[slot] - base.attribute[slot]);
       if ((fragment.flags & flag_saturated) == 0)
-        error = std::max(error, std::fabs(std::ldexp(above, -config_.attribute_frac()) - exact_above[slot]));
+        error = std::max(error, std::fabs(std::ldexp(above, -config_.attribute_frac()) - exact(slot)));
     }
   }
 
@@ -87,7 +87,9 @@ class TrianglesBench {
       const SnappedQuad& quad = quads[fragment.quad];
       if (!truth || last != fragment.quad) truth.emplace(quad, config_, state);
       last = fragment.quad;
-      compare(fragment, quad.base, state, truth->sample(fragment.x, fragment.y).attribute_above, drawn.error);
+      const golden::ReferenceSample sample = truth->sample(fragment.x, fragment.y);
+      compare(
+          fragment, quad.base, state, [&](std::size_t slot) { return sample.attribute_above[slot]; }, drawn.error);
     });
     drawn.counters = run.counters;
     drawn.clocks = run.cycles - run.counters[PerformanceCounter::bound_wipe];
@@ -101,7 +103,8 @@ class TrianglesBench {
       const SnappedTriangle& triangle = triangles[fragment.quad];
       const auto exact = ExactTriangle(triangle, config_, state).at(fragment.x, fragment.y);
       if (!exact) throw std::logic_error("a fragment of the triangle machine is not covered");
-      compare(fragment, triangle.base, state, exact->attribute_above, drawn.error);
+      compare(
+          fragment, triangle.base, state, [&](std::size_t slot) { return exact->attribute[slot].value; }, drawn.error);
     });
     drawn.counters = run.counters;
     drawn.clocks = run.clocks;
