@@ -15,7 +15,7 @@ namespace quadrille::tb {
 namespace {
 
 constexpr int extent = 48;
-constexpr std::size_t triangles_per_draw = 150;
+constexpr std::size_t triangles_per_draw = 300;
 
 enum class Kind { ordinary, outside, behind };  ///< all W = 1; some outside the guard band, with w > 0; some w <= 0
 
@@ -34,15 +34,19 @@ WindowQuad random_triangle(golden::Prng& random, std::uint32_t id, Kind kind, st
   WindowQuad triangle;
   triangle.id = id;
   const double reach = random.chance(0.3) ? 6 : extent;
+  const bool ties = random.chance(0.5);  // pixel centres and their halves; else areas have more than S bits
   const double x = random.uniform() * extent, y = random.uniform() * extent;
   for (std::size_t i = 0; i < 3; ++i) {
     WindowVertex& v = triangle.vertex[i];
     v.w = kind == Kind::ordinary || random.chance(0.5) ? 0.25 + random.uniform() : random.uniform() * 2 - 1;
     if (kind == Kind::outside) v.w = std::fabs(v.w) + 0.001;
     const double far = kind == Kind::outside && random.chance(0.3) ? 3000 : 1;
-    // Pixel centres and their halves: many ties.
-    v.x = (std::round(2 * (x + far * (random.uniform() - 0.5) * reach)) / 2) * v.w;
-    v.y = (std::round(2 * (y + far * (random.uniform() - 0.5) * reach)) / 2) * v.w;
+    const auto place = [&](double middle) {
+      const double at = middle + far * (random.uniform() - 0.5) * reach;
+      return (ties ? std::round(2 * at) / 2 : at) * v.w;
+    };
+    v.x = place(x);
+    v.y = place(y);
     v.z = (0.1 + 0.8 * random.uniform()) * v.w;
     for (std::size_t slot = 0; slot < slots; ++slot) triangle.attribute[i].push_back(random.uniform() * 20 - 10);
   }
