@@ -24,7 +24,8 @@ LINES = {"README.md": 120, "tb/DECIDE.md": 120, "rtl/INTEGRATE.md": 120, "golden
 COLUMNS, README_LINES, WORDS = 120, 200, 27_000
 APART = (
     "rtl/SPEC.md", "golden/CHANGELOG.md", "golden/explain/README.md", "model/page/README.md",
-    "model/python/README.md", "rtl/configurations/README.md", "rtl/demo/README.md", "rtl/wrap/README.md", "tb/verify/cocotb/README.md", "scripts/MATRIX.md")
+    "model/python/README.md", "rtl/configurations/README.md", "rtl/demo/README.md", "rtl/triangles/README.md", "rtl/wrap/README.md",
+    "tb/verify/cocotb/README.md", "scripts/MATRIX.md")
 INPUT = "--scene bowtie --size 16x16"
 RUNS = f"""config --json @.json|export --out @ --json @.json|scenes --json @.json|scenes --corner --json @.json|scenes --stress --json @.json|cache --json @.json
 explain {INPUT} --pixel 3,2 --json @.json|fragments {INPUT} --out @.csv|fragments {INPUT} --errors --out @.csv --json @.json|render {INPUT} --png @.png --json @.json

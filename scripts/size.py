@@ -3,6 +3,7 @@
 
   scripts/size.py significand_bits=24                    minutes
   scripts/size.py --target ecp5-nodsp
+  scripts/size.py --triangles --config colour8           the triangle machine (rtl/triangles)
 
   LUT   LUT4 + 2 CCU2C (two carry bits) + 6 DPR16X4 (16 words of four bits)
   DSP   MULT18X18D
@@ -12,12 +13,16 @@ cells: LUT4, CCU2C, DSP, memory read.
 
 Exit status: 0 done, 1 synthesis failed, 2 usage error, 3 missing Yosys.
 """
+import subprocess
+import sys
 import tempfile
 
 from report import synthesis
-from report.program import end, options
+from report.program import ROOT, end, options
 
 TARGETS = {"ecp5": True, "ecp5-nodsp": False}  # with DSP blocks?
+# Of the triangle machine: those without an input that it never uses.
+TRIANGLE_UNITS = "forward_difference_column normalise interpolate reciprocal fragment_output fragment_fifo".split()
 JSON_NAMES = {"LUT": "luts", "FF": "flip_flops", "DSP": "dsps", "BRAM": "block_rams"}
 
 
@@ -25,9 +30,16 @@ def main():
     parser = options(__doc__)
     synthesis.add_arguments(parser)
     parser.add_argument("--target", choices=TARGETS, default="ecp5", help="default: ecp5; ecp5-nodsp: multipliers in logic")
+    parser.add_argument("--triangles", action="store_true", help="the triangle machine instead")
     args = parser.parse_intermixed_args()
     with tempfile.TemporaryDirectory() as work:
-        rows, path = synthesis.ecp5(synthesis.Machine(args, work), TARGETS[args.target])
+        if args.triangles:
+            args.rtl = f"{work}/rtl"
+            subprocess.run([sys.executable, f"{ROOT}/rtl/triangles/machine.py", args.rtl], check=True)
+        machine = synthesis.Machine(args, work)
+        if args.triangles:
+            machine.apart = TRIANGLE_UNITS
+        rows, path = synthesis.ecp5(machine, TARGETS[args.target])
     synthesis.write_json(args.json, as_json(args.target, rows, path))
     if args.json != "-" and not args.quiet:
         print_table(rows)

@@ -94,7 +94,7 @@ class Machine:
     """The RTL with the defines and tables of a configuration; args: of add_arguments()."""
 
     def __init__(self, args, work):
-        self.work = work
+        self.work, self.apart = work, UNITS
         for setting in args.settings:
             if not re.fullmatch(r"[a-z0-9_]+=-?\w+", setting):
                 raise InputError(f"{setting}: expected KEY=VALUE, such as significand_bits=12; `quadrille config` lists the keys")
@@ -136,7 +136,7 @@ class Machine:
             raise InputError(f"no unit {top} in rtl/; there are: {' '.join(sorted(self.units))}")
         chparam = "".join(f" -chparam {name} {value}" for name, value in parameters)
         # With its parameters behind it and a backslash, or with their hash before it.
-        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}\\\\*" for unit in (*UNITS, *SHARED, *([top] if wrapper else [])))
+        kept = " ".join(f"*{module_name(unit)} *{module_name(unit)}\\\\*" for unit in (*self.apart, *SHARED, *([top] if wrapper else [])))
         if wrapper:
             return f"{self.read}read_verilog -sv wrapper.sv\nhierarchy -check -top {wrapper}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
         return f"{self.read}hierarchy -check -top {module_name(top)}{chparam}\nsetattr -mod -set keep_hierarchy 1 {kept}\n"
