@@ -20,6 +20,8 @@ constexpr double setup_clocks = 7, setup_clocks_homogeneous = 20, setup_clocks_h
 constexpr double setup_clocks_four_units = 6, setup_clocks_homogeneous_four_units = 12,
                  setup_clocks_homogeneous_walk_four_units = 25;
 constexpr std::uint64_t most_small_quad_clocks = 8;
+/// Of a slot, from a small quad's start until its end leaves the pixel pipeline.
+constexpr std::uint64_t most_slot_clocks = 97;
 constexpr std::uint64_t most_setup_latency = 17, most_setup_latency_homogeneous = 31,
                         most_setup_latency_homogeneous_walk = 51;
 /// What rtl/MEASUREMENTS.md claims to its last digit: clocks are exact, so any loss is one of the
