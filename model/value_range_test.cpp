@@ -158,10 +158,10 @@ TEST(ValueRange, DepthsAndLimitsACodeApart) {
         q.attribute[i] = {0, 0, 0};
       }
       const auto [least, greatest] = std::minmax_element(code.begin(), code.end());
-      const auto with_limits = [&](std::int64_t near, std::int64_t far) {
+      const auto with_limits = [&, bits = depth_bits](std::int64_t near, std::int64_t far) {
         DrawState state = square();
-        state.znear = std::ldexp(static_cast<double>(near), -depth_bits);
-        state.zfar = std::ldexp(static_cast<double>(far), -depth_bits);
+        state.znear = std::ldexp(static_cast<double>(near), -bits);
+        state.zfar = std::ldexp(static_cast<double>(far), -bits);
         return draw_every_way(c, state, snap_quad(q, c, state));
       };
       SCOPED_TRACE("S " + std::to_string(s) + ", " + std::to_string(depth_bits) + " bits of depth");

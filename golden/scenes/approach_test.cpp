@@ -129,7 +129,9 @@ TEST(Approach, TheSpecialCaseIsExactAtThePort) {
        }},
       {"eye_plane", [](const auto& v, const ApproachPlace&) -> std::int64_t { return v[1].w; }},
   };
-  for (const auto& [name, port] : ports) {
+  for (const auto& entry : ports) {
+    const std::string_view name = entry.first;
+    const Port& port = entry.second;
     const Approach& approach = *find_approach(name);
     const DrawState state = draw_state(approach);
     const auto values = [&](int knob, int side) {

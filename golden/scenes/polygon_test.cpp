@@ -58,7 +58,7 @@ void expect_cut(std::vector<Vec2> polygon, std::uint64_t seed) {
       expect_covered_once(shape, cut_polygon(tilted(shape, false)), seed);
       expect_covered_once(shape, cut_polygon(tilted(shape, true)), seed);
     }
-    std::ranges::rotate(polygon, polygon.begin() + 1);
+    std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
   }
 }
 
@@ -86,7 +86,7 @@ TEST(Polygon, AFanStartsWhereAllIsSeen) {
   // From the reflex corner of an L, and its opposite, all is seen; from the end of an arm it is not.
   std::vector<Vec2> shape = l_shape;
   EXPECT_EQ(cut_polygon(tilted(shape, false)), (std::vector<Piece>{{0, 1, 2, 3}, {0, 3, 4, 5}}));
-  std::ranges::rotate(shape, shape.begin() + 1);
+  std::rotate(shape.begin(), shape.begin() + 1, shape.end());
   EXPECT_EQ(cut_polygon(tilted(shape, false)), (std::vector<Piece>{{2, 3, 4, 5}, {2, 5, 0, 1}}));
   expect_cut(l_shape, 1);
 }

@@ -247,8 +247,7 @@ Camera frame_mesh(const Mesh& mesh, int width, int height, const Viewpoint& view
 
   // The sphere touches the sides of the frustum at distance r / sin(half the narrower angle).
   const double half_height = std::tan(auto_frame_fovy * std::numbers::pi / 360);
-  const double half_width = half_height * width / height;
-  const double half = std::min(half_height, half_width);
+  const double half = std::min(half_height, half_height * width / height);
   const double distance = radius * std::sqrt(1 + half * half) / half;
   Camera camera;
   camera.target = centre;

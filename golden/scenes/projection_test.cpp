@@ -210,7 +210,7 @@ TEST(Projection, AConcaveFacePaintsTheSameFromEveryFirstCorner) {
   for (int first = 0; first < 6; ++first) {
     EXPECT_EQ(drawn_area(mesh), 10) << first;  // an L of 5 squares
     EXPECT_EQ(project_mesh(mesh, identity_camera(), 2, 2).fan_primitives, 2u);
-    std::ranges::rotate(mesh.faces[0], mesh.faces[0].begin() + 1);
+    std::rotate(mesh.faces[0].begin(), mesh.faces[0].begin() + 1, mesh.faces[0].end());
   }
 }
 

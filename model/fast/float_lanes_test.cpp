@@ -277,6 +277,7 @@ TEST(FloatLanes, PlainAndLanesLeaveOutTheSame) {
   EXPECT_GT(plane, 1000u);
   EXPECT_GT(pixels, 100'000u);
   EXPECT_GT(tiles_hidden, 500u);
+  EXPECT_GT(blocks_hidden, 0u);
   EXPECT_GT(tiles_masked, 10u);
   EXPECT_GT(on_edge, 100u);
   EXPECT_GT(corners, 100u);

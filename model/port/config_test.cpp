@@ -119,8 +119,8 @@ TEST(Config, UnknownKeySuggestsTheNearest) {
                                                        {"depthbits", "depth_bits"}};
   for (const auto& [wrong, right] : cases) {
     Config c;
-    const std::string set = refusal([&] { c.set(wrong, 1); });
-    const std::string get = refusal([&] { static_cast<void>(c.get(wrong)); });
+    const std::string set = refusal([&, key = wrong] { c.set(key, 1); });
+    const std::string get = refusal([&, key = wrong] { static_cast<void>(c.get(key)); });
     EXPECT_TRUE(contains(set, wrong) && contains(set, right)) << set;
     EXPECT_TRUE(contains(get, right)) << get;
   }

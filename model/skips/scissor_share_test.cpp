@@ -22,8 +22,6 @@ namespace {
 
 using golden::Prng;
 
-constexpr auto outside = static_cast<std::size_t>(QuadReject::outside);
-
 // ---- How much is left out ----------------------------------------------------------------------------------------
 
 struct Point {

@@ -41,8 +41,9 @@ std::string fragment_errors_csv(std::span<const WindowQuad> quads, std::span<con
   std::optional<JudgedQuad> quad;
   std::optional<ErrorBounds> limits;
   std::uint32_t current = 0;
-  for (const auto& [where, pixel] : pixels) {
-    const auto [index, y, x] = where;
+  for (const auto& entry : pixels) {
+    const auto [index, y, x] = entry.first;
+    const auto& pixel = entry.second;
     if (!quad || index != current) {
       current = index;
       limits.reset();

@@ -180,9 +180,9 @@ TEST(Shrink, NothingCanBeLeftOutByItself) {
     };
     const FailingDraw left = least(draw, failing(fails));
     std::ranges::sort(ids);
-    ids.erase(std::ranges::unique(ids).begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     std::ranges::sort(stalls);
-    stalls.erase(std::ranges::unique(stalls).begin(), stalls.end());
+    stalls.erase(std::unique(stalls.begin(), stalls.end()), stalls.end());
     EXPECT_EQ(left.quads.size(), ids.size());
     EXPECT_EQ(*left.waits, (PortWaits{stalls, {}}));
     EXPECT_EQ(left.stall, 0);  // which would draw others

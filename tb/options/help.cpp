@@ -93,9 +93,10 @@ class HelpFormatter : public CLI::Formatter {
     for (const std::string& group : groups) {
       auto options = app->get_options(
           [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
-      std::ranges::stable_partition(options, [](const CLI::Option* option) {  // what is common comes last
-        return !option->check_name("--json") && !option->check_name("--quiet") && !option->check_name("--verbose");
-      });
+      std::stable_partition(
+          options.begin(), options.end(), [](const CLI::Option* option) {  // what is common comes last
+            return !option->check_name("--json") && !option->check_name("--quiet") && !option->check_name("--verbose");
+          });
       if (!group.empty() && !options.empty())
         text += make_group(group == "Options" && app->get_parent() != nullptr ? "Options of " + app->get_name() : group,
                            false, options);

@@ -292,8 +292,8 @@ std::vector<std::string> names_of(const std::vector<golden::SceneInfo>& scenes) 
 }  // namespace
 
 int DrawInput::slot_of(std::initializer_list<std::string_view> names) const {
-  const auto found = std::ranges::search(attribute_names, names);
-  return found.empty() ? -1 : static_cast<int>(found.begin() - attribute_names.begin());
+  const auto found = std::search(attribute_names.begin(), attribute_names.end(), names.begin(), names.end());
+  return found == attribute_names.end() ? -1 : static_cast<int>(found - attribute_names.begin());
 }
 
 int inputs_given(const InputOptions& options) {

@@ -276,8 +276,7 @@ class Compare {
         throw UsageError("--crease-sizes " + std::to_string(size) + ": expected 16 to " + std::to_string(limit) +
                          " pixels");
     std::ranges::sort(sizes);
-    const auto same = std::ranges::unique(sizes);
-    sizes.erase(same.begin(), same.end());
+    sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
     return sizes;
   }
 

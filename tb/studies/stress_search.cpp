@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <tuple>
 
 namespace quadrille::tb {
 namespace {
@@ -116,7 +117,8 @@ int search_stress(const CommonOptions& common, const std::string& list, const St
   const Config config = common.config();
   if (config.qdrop() != 0) throw UsageError("stress: no bound with quadratic_frac_bits that drops bits of D and R²");
   const std::vector<golden::StressFamily> families = families_in(list);
-  const auto [width, height] = common.viewport(config);
+  int width = 0, height = 0;
+  std::tie(width, height) = common.viewport(config);
   check_outputs({options.keep, common.json}, {common.config_file});
 
   WorstQuads kept;

@@ -48,7 +48,8 @@ fs::path glue_directory() { return locate("tb/device", "device_glue.cpp"); }
 
 std::vector<fs::path> rtl_sources(const fs::path& directory) {
   std::vector<fs::path> files = files_of(directory, ".sv", "files");
-  std::ranges::stable_partition(files, [](const fs::path& p) { return p.stem().string().ends_with("_pkg"); });
+  std::stable_partition(files.begin(), files.end(),
+                        [](const fs::path& p) { return p.stem().string().ends_with("_pkg"); });
   return files;
 }
 

@@ -247,7 +247,7 @@ Gaps measure_gaps(const AttributeImage& image, std::span<const Quad> quads) {
   }
   // Profiles of two edges may meet in a pixel.
   std::ranges::sort(holes);
-  holes.erase(std::ranges::unique(holes).begin(), holes.end());
+  holes.erase(std::unique(holes.begin(), holes.end()), holes.end());
   for (const std::size_t p : holes) ++(image.covered(p) ? result.foreign : result.empty);
   return result;
 }

@@ -95,8 +95,8 @@ Counts check_mesh(std::uint64_t seed, std::uint64_t index) {
   for (const auto& cell : mesh.cells) {
     std::array<int, 4> corners = cell;
     std::ranges::sort(corners);
-    const auto repeated = std::ranges::unique(corners);
-    for (auto c = corners.begin(); c != repeated.begin(); ++c) ++users[static_cast<std::size_t>(*c)];
+    const auto repeated = std::unique(corners.begin(), corners.end());
+    for (auto c = corners.begin(); c != repeated; ++c) ++users[static_cast<std::size_t>(*c)];
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& a = mesh.vertices[static_cast<std::size_t>(cell[i])];
       const auto& b = mesh.vertices[static_cast<std::size_t>(cell[(i + 1) & 3])];

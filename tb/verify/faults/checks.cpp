@@ -196,7 +196,7 @@ std::optional<Finding> run(const CheckInfo& check, const Mutant& mutant, bool rt
     order.push_back(&s);
     if (check.sees_rtl) simulator_of(s.options.config);  // with no fault selected: the tables are the model's
   }
-  std::ranges::stable_partition(order, [&](const Scenario* s) { return mutant.scenario == s->name; });
+  std::stable_partition(order.begin(), order.end(), [&](const Scenario* s) { return mutant.scenario == s->name; });
   const Selected selected(mutant, rtl, model);
   if (!check.by_scenario) {
     if (Found what = check.find(nullptr)) return Finding{check.name, *what};
