@@ -18,6 +18,7 @@ import sys
 import tempfile
 
 from report import synthesis
+from report.files import InputError
 from report.program import ROOT, end, options
 
 TARGETS = {"ecp5": True, "ecp5-nodsp": False}  # with DSP blocks?
@@ -32,6 +33,8 @@ def main():
     parser.add_argument("--target", choices=TARGETS, default="ecp5", help="default: ecp5; ecp5-nodsp: multipliers in logic")
     parser.add_argument("--triangles", action="store_true", help="the triangle machine instead")
     args = parser.parse_intermixed_args()
+    if args.triangles and args.rtl != parser.get_default("rtl"):
+        raise InputError("--triangles and --rtl: one of them; the triangle machine is made of the project's rtl/")
     with tempfile.TemporaryDirectory() as work:
         if args.triangles:
             args.rtl = f"{work}/rtl"
