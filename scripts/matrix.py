@@ -73,6 +73,7 @@ def main():
     parser = options(__doc__)
     parser.add_argument("row", nargs="*", metavar="ROW", help="rows to run (default: all)")
     parser.add_argument("--list", action="store_true", help="print the rows and their commands")
+    parser.add_argument("--resume", action="store_true", help="go on after the commands that passed (not in a chroot, which is made anew)")
     parser.add_argument("--write", action="store_true", help="write the table; without ROW nothing is run")
     args = parser.parse_args()
     if unknown := [r for r in args.row if r not in ROWS]:
@@ -84,7 +85,7 @@ def main():
     names = args.row or ([] if args.write else list(ROWS))
     if names and os.geteuid() != 0:
         raise MissingTool("needs root: it makes chroots and installs packages")
-    failed = [name for name in names if not run_row(name, ROWS[name])]
+    failed = [name for name in names if not run_row(name, ROWS[name], args.resume)]
     if args.write:
         write_text(PAGE, page())
     if names:
@@ -92,23 +93,30 @@ def main():
     return 1 if failed else 0
 
 
-def run_row(name, row):
+def run_row(name, row, resume):
     os.makedirs(OUT, exist_ok=True)
     start = time.monotonic()
-    result = {"versions": [], "done": [], "failed": None, "commit": commit()}
-    with open(os.path.join(OUT, f"{name}.log"), "w", encoding="utf-8") as log:
+    path = os.path.join(OUT, f"{name}.json")
+    result = {"versions": [], "done": [], "failed": None, "commits": [], "minutes": 0}
+    if resume and not row.release and os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            result |= json.load(file) | {"failed": None}
+    before = result["minutes"]
+    if commit() not in result["commits"]:
+        result["commits"].append(commit())
+    with open(os.path.join(OUT, f"{name}.log"), "a" if before else "w", encoding="utf-8") as log:
         place = Chroot(name, row.release, log) if row.release else Here(row.packages, log)
         with place:
-            for command in row.commands:
+            for command in [c for c in row.commands if c not in result["done"]]:
                 print(f"{name}: {command}", flush=True)
                 if place.run(command):
                     result["done"].append(command)
                 else:
                     result["failed"] = command
                 result["versions"] = [f"{tool} {version(place.output(command))}" for tool, command in row.tools.items()]
-                result["minutes"] = round((time.monotonic() - start) / 60)
+                result["minutes"] = before + round((time.monotonic() - start) / 60)
                 # After each: a row that is interrupted has what it came to.
-                write_text(os.path.join(OUT, f"{name}.json"), json.dumps(result, indent=1) + "\n")
+                write_text(path, json.dumps(result, indent=1) + "\n")
                 if result["failed"]:
                     break
     passed = not result["failed"]
@@ -202,7 +210,7 @@ def page():
             continue
         with open(path, encoding="utf-8") as file:
             r = json.load(file)
-        lines.append(f"| {row.what} | {', '.join(r['versions'])} | {outcome(row, r)} | {r['minutes']} | {r['commit']} |")
+        lines.append(f"| {row.what} | {', '.join(r['versions'])} | {outcome(row, r)} | {r['minutes']} | {', '.join(r['commits'])} |")
     return "\n".join(lines) + "\n"
 
 
