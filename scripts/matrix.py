@@ -201,7 +201,8 @@ def outcome(row, result):
 
 def page():
     lines = ["# Systems, compilers and tools tried", "",
-             "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone.", "",
+             "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone;",
+             "`--resume` goes on after what passed.", "",
              "| row | versions | result | minutes | commit |", "|---|---|---|---|---|"]
     for name, row in ROWS.items():
         path = os.path.join(OUT, f"{name}.json")

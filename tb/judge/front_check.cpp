@@ -17,7 +17,7 @@ namespace {
 using exact::Wide;
 using golden::Prng;
 
-constexpr int snapped_quads = 1000, coverage_quads = 1500, walked_quads = 100, limit_pairs = 500;
+constexpr int snapped_quads = 1000, setup_quads = 1500, walked_quads = 100, limit_pairs = 500;
 
 // ---- snapping ----
 
@@ -114,7 +114,7 @@ SnappedQuad random_quad(const Config& config, Prng& rng, int kind) {
 }
 
 void check_setup(const Config& config, Prng& rng, FunctionTally& tally) {
-  for (int n = 0; n < coverage_quads; ++n) {
+  for (int n = 0; n < setup_quads; ++n) {
     const SnappedQuad quad = random_quad(config, rng, n);
     DrawState state;
     state.width = state.height = std::min(80, 1 << config.viewport_bits);
