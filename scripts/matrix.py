@@ -102,11 +102,15 @@ def run_row(name, row, resume):
         with open(path, encoding="utf-8") as file:
             result |= json.load(file) | {"failed": None}
     before = result["minutes"]
+
+    def save():
+        write_text(path, json.dumps(result, indent=1) + "\n")
     if commit() not in result["commits"]:
         result["commits"].append(commit())
     with open(os.path.join(OUT, f"{name}.log"), "a" if before else "w", encoding="utf-8") as log:
         place = Chroot(name, row.release, log) if row.release else Here(row.packages, log)
         with place:
+            save()  # and after each: a row that is interrupted has what it came to
             for command in [c for c in row.commands if c not in result["done"]]:
                 print(f"{name}: {command}", flush=True)
                 if place.run(command):
@@ -115,8 +119,7 @@ def run_row(name, row, resume):
                     result["failed"] = command
                 result["versions"] = [f"{tool} {version(place.output(command))}" for tool, command in row.tools.items()]
                 result["minutes"] = before + round((time.monotonic() - start) / 60)
-                # After each: a row that is interrupted has what it came to.
-                write_text(path, json.dumps(result, indent=1) + "\n")
+                save()
                 if result["failed"]:
                     break
     passed = not result["failed"]
