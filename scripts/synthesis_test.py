@@ -24,6 +24,46 @@ TOOLS = "--tools" in sys.argv
 sys.argv = [arg for arg in sys.argv if arg != "--tools"]
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 
+# As Yosys 0.70 prints it.
+NEWER_STATISTICS = """
+=== top ===
+
+        +----------Local Count, excluding submodules.
+        |
+        5 wires
+       49 wire bits
+        2 submodules
+        2   half
+
+=== half ===
+
+        +----------Local Count, excluding submodules.
+        |
+       65 wires
+       25 cells
+        8   CCU2C
+        1   MULT18X18D
+       16   TRELLIS_FF
+        1 submodules
+        1   gate
+
+=== gate ===
+
+        +----------Local Count, excluding submodules.
+        |
+        3 wires
+        1 cells
+        1   LUT4
+
+=== design hierarchy ===
+
+        +----------Count including submodules.
+        |
+       52 top
+       25 half
+        1   gate
+"""
+
 STATISTICS = """
 === $paramod\\quadrille_sqrt\\N=s32'00000000000000000000000000000100 ===
 
@@ -174,6 +214,13 @@ class Reading(unittest.TestCase):
         # A CCU2C is two LUTs, a DPR16X4 six; a unit inside something that is none belongs to the rest.
         self.assertEqual(rows, {"sqrt": (4, {"LUT": 36, "FF": 0, "DSP": 8, "BRAM": 0}), "the rest": (None, {"LUT": 140, "FF": 27, "DSP": 0, "BRAM": 0}),
                                 "all": (None, {"LUT": 176, "FF": 27, "DSP": 8, "BRAM": 0})})
+
+    def test_statistics_with_the_count_first(self):
+        with tempfile.NamedTemporaryFile("w") as file:
+            file.write(NEWER_STATISTICS)
+            file.flush()
+            cells = synthesis.statistics(file.name)
+        self.assertEqual(synthesis.size_of(cells, "top", synthesis.ECP5), {"LUT": 2 * (2 * 8 + 1), "FF": 32, "DSP": 2, "BRAM": 0})
 
     def test_slowest_path(self):
         netlist = timing.Netlist(NETLIST.splitlines(keepends=True), {"fp_sum", "fp_normalise"})

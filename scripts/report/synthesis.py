@@ -148,6 +148,10 @@ class Machine:
         return run([tool, "-s", stem + ".ys"], self.work, stem + ".log")
 
 
+# In newer versions the count is first, then perhaps the area; one word counts of the module are among them ("5 wires").
+NEWER_ENTRY = re.compile(r" +(?P<count>\d+) +(?:\d[\d.e+]* +)?(?P<cell>[^\s\d]\S*)$")
+
+
 def statistics(path):
     """Cells by type of each module, from a file of Yosys' stat."""
     cells, module = {}, None
@@ -155,8 +159,8 @@ def statistics(path):
         for line in file:
             if head := re.match(r"=== (.*) ===", line):
                 module = cells.setdefault(head.group(1), {}) if head.group(1) != "design hierarchy" else None
-            elif module is not None and (entry := re.match(r" +(\S+) +(\d+)$", line)):
-                module[entry.group(1)] = int(entry.group(2))
+            elif module is not None and (entry := re.match(r" +(?P<cell>\S+) +(?P<count>\d+)$", line) or NEWER_ENTRY.match(line)):
+                module[entry["cell"]] = int(entry["count"])
     return cells
 
 

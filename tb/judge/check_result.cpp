@@ -36,9 +36,9 @@ bool is_eye_crossing(const SnappedQuad& quad) {
 
 bool has_antipodal_edge(const SnappedQuad& quad) {
   const auto antipodal = [](const SnappedVertex& a, const SnappedVertex& b) {
-    using Wide = std::int64_t;
-    const bool parallel =
-        Wide{a.y} * b.w == Wide{a.w} * b.y && Wide{a.w} * b.x == Wide{a.x} * b.w && Wide{a.x} * b.y == Wide{a.y} * b.x;
+    using Integer = std::int64_t;
+    const bool parallel = Integer{a.y} * b.w == Integer{a.w} * b.y && Integer{a.w} * b.x == Integer{a.x} * b.w &&
+                          Integer{a.x} * b.y == Integer{a.y} * b.x;
     // Parallel vectors: the sign of any product of two components is the sign of the scale.
     const __int128 dot =
         static_cast<__int128>(a.x) * b.x + static_cast<__int128>(a.y) * b.y + static_cast<__int128>(a.w) * b.w;

@@ -17,7 +17,7 @@ namespace {
 using exact::Wide;
 using golden::Prng;
 
-constexpr int snapped_quads = 1000, quads = 1500, walked_quads = 100, limits = 500;
+constexpr int snapped_quads = 1000, setup_quads = 1500, walked_quads = 100, limit_pairs = 500;
 
 // ---- snapping ----
 
@@ -114,7 +114,7 @@ SnappedQuad random_quad(const Config& config, Prng& rng, int kind) {
 }
 
 void check_setup(const Config& config, Prng& rng, FunctionTally& tally) {
-  for (int n = 0; n < quads; ++n) {
+  for (int n = 0; n < setup_quads; ++n) {
     const SnappedQuad quad = random_quad(config, rng, n);
     DrawState state;
     state.width = state.height = std::min(80, 1 << config.viewport_bits);
@@ -207,7 +207,7 @@ void check_walk(const Config& config, Prng& rng, FunctionTally& tiles, FunctionT
 
 void check_limits(const Config& config, Prng& rng, FunctionTally& tally) {
   constexpr int fraction = 40;
-  for (int n = 0; n < limits; ++n) {
+  for (int n = 0; n < limit_pairs; ++n) {
     std::int64_t z = rng.integer(0, std::int64_t{1} << fraction);
     if (n % 2 == 0) z &= -(std::int64_t{1} << (fraction - config.depth_bits - 1));  // halves of a code
     const int drop = fraction - config.depth_bits;

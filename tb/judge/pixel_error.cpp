@@ -43,21 +43,21 @@ PixelErrors::PixelErrors(const Config& config, const DrawState& state, Output ou
 
 /// Nothing at singular pixels.
 std::optional<PixelErrors::QuickTruth> PixelErrors::quick_truth(const SnappedQuad& q, int px, int py) const {
-  using Wide = __int128;
+  using Product = __int128;
   std::int64_t x[4], y[4];
   std::array<long double, 4> length, rho, both, dots, areas;
   for (std::size_t i = 0; i < 4; ++i) {
     x[i] = q.vertex[i].x - std::int64_t{q.vertex[i].w} * px;
     y[i] = q.vertex[i].y - std::int64_t{q.vertex[i].w} * py;
-    const Wide r2 = static_cast<Wide>(x[i]) * x[i] + static_cast<Wide>(y[i]) * y[i];
+    const Product r2 = static_cast<Product>(x[i]) * x[i] + static_cast<Product>(y[i]) * y[i];
     if (r2 == 0) return std::nullopt;
     length[i] = std::sqrt(static_cast<long double>(r2));
     rho[i] = 1 / length[i];
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) & 3;
-    const Wide a = static_cast<Wide>(x[i]) * y[j] - static_cast<Wide>(y[i]) * x[j];
-    const Wide d = static_cast<Wide>(x[i]) * x[j] + static_cast<Wide>(y[i]) * y[j];
+    const Product a = static_cast<Product>(x[i]) * y[j] - static_cast<Product>(y[i]) * x[j];
+    const Product d = static_cast<Product>(x[i]) * x[j] + static_cast<Product>(y[i]) * y[j];
     if (d < 0 && a == 0) return std::nullopt;
     areas[i] = static_cast<long double>(a);
     dots[i] = static_cast<long double>(d);

@@ -1,5 +1,6 @@
 // The model's stages behind the front, normalise to fragment_output, each on what the stage before gave, before the
 // judge. The tables' own values are taken as they come (arithmetic_check.cpp judges them).
+#include "golden/analysis/judged_quad.hpp"
 #include "model/support/prng.hpp"
 #include "tb/judge/function_tally.hpp"
 #include "tb/judge/stage_judge.hpp"

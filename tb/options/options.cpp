@@ -56,7 +56,7 @@ std::string larger_viewport(const Config& config, int pixels) {
   return "";
 }
 
-constinit const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
+const std::array<std::string, 3> cull_names{"none", "front", "back"};  // in the order of Cull
 
 /// all, none, or names with commas between. `hidden` is among all where the machine can and there is a depth test: the
 /// pictures of this program are drawn as that skip asks for. `plane`, where the machine can.
