@@ -205,7 +205,7 @@ def outcome(row, result):
 def page():
     lines = ["# Systems, compilers and tools tried", "",
              "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone;",
-             "`--resume` goes on after what passed.", "",
+             "`--resume` goes on after what passed.", "", "<!-- matrix.py -->",
              "| row | versions | result | minutes | commit |", "|---|---|---|---|---|"]
     for name, row in ROWS.items():
         path = os.path.join(OUT, f"{name}.json")
@@ -215,7 +215,7 @@ def page():
         with open(path, encoding="utf-8") as file:
             r = json.load(file)
         lines.append(f"| {row.what} | {', '.join(r['versions'])} | {outcome(row, r)} | {r['minutes']} | {', '.join(r['commits'])} |")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "<!-- end -->"]) + "\n"
 
 
 if __name__ == "__main__":
