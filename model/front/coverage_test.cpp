@@ -114,7 +114,7 @@ void walk(const SnappedQuad& q, const Config& c, const DrawState& state, std::ma
 
 TEST(TileWalk, CoversWhatExpressionTwelveCovers) {
   Prng rng(22);
-  std::uint64_t covered = 0, ties = 0, checked = 0, fronts = 0, hulls = 0;
+  std::uint64_t covered = 0, ties = 0, fronts = 0, hulls = 0;
   int tiles_with = 0, tiles_without = 0;
   for (const auto& [vp, tile] : {std::array{6, 2}, {6, 3}, {6, 4}, {7, 2}}) {
     const Config c = small_config(vp, tile);
@@ -141,7 +141,6 @@ TEST(TileWalk, CoversWhatExpressionTwelveCovers) {
           Drawn expected = brute_force(q, c, state.cull, px, py);
           if (px < state.scissor_x0 || px >= state.scissor_x1 || py < state.scissor_y0 || py >= state.scissor_y1)
             expected = {};
-          ++checked;
           for (const auto* seen : {&with, &without}) {
             const auto found = seen->find({px, py});
             ASSERT_EQ(found != seen->end(), expected.covered)

@@ -169,7 +169,7 @@ Wide dot(const SnappedQuad& q, std::size_t i, std::size_t j, int x, int y) {
 TEST(PixelPipeline, EndsFollowTheirDefinitions) {
   constexpr std::size_t pairs[6][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 0}, {1, 3}};
   Prng rng(300);
-  int classes[5] = {}, discarded = 0, saturated = 0, pixels = 0, exact_with_drop = 0;
+  int classes[5] = {}, discarded = 0, saturated = 0, exact_with_drop = 0;
   for (const auto& info : golden::stress_families())
     for (int n = 0; n < 12; ++n) {
       Config c = random_config(rng);
@@ -203,7 +203,6 @@ TEST(PixelPipeline, EndsFollowTheirDefinitions) {
           for (int dx = 0; dx < c.tile(); ++dx) {
             PixelTrace p;
             pixel_pipeline(p, tile, constants, data, dx, row, context);
-            ++pixels;
             const int x = setup.tile_x0 * c.tile() + dx, y = setup.tile_y0 * c.tile() + row;
             ASSERT_EQ(p.x, x);
             ASSERT_EQ(p.y, y);
