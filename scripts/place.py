@@ -25,7 +25,6 @@ import tempfile
 from report import placement, synthesis
 from report.program import end, options
 
-PLACER = ("--placer", "static", "--router", "router2")  # the quickest for 50,000 LUTs, and no slower a clock
 PARTS = {"vertices, setup, slots": "vertex_assembly quad_setup vertex_products gradient_bank", "tiles, coverage": "tile_walk tile_context tile_ring stamp_coverage",
          "functions of a pixel": "row_functions forward_difference_column law_of_cosines", "normalise, roots": "normalise sqrt",
          "weights": "mean_value_ratios mean_value_weights", "interpolate": "interpolate", "quotients, output, FIFO": "reciprocal fragment_output fragment_fifo",
@@ -76,7 +75,7 @@ def place(args, nextpnr, work):
             report = placement.read_json(work, stem + "_report.json")
         else:
             report = placement.nextpnr(nextpnr, work, "netlist.json", stem, device, args.speed, seed,
-                                       (*PLACER, "--write", stem + ".json", "--sdf", stem + ".sdf"))
+                                       (*placement.PLACER, "--write", stem + ".json", "--sdf", stem + ".sdf"))
             with open(os.path.join(work, stem + ".done"), "w", encoding="utf-8"):
                 pass
         result["seeds"].append({"seed": seed, "mhz": round(placement.mhz(report), 2),

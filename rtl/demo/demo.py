@@ -27,7 +27,7 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
 import frames  # noqa: E402
 import poses  # noqa: E402
-from report import synthesis  # noqa: E402
+from report import placement, synthesis  # noqa: E402
 from report.files import Failed, InputError, read_json, write_text  # noqa: E402
 from report.program import PROGRAM, end, options  # noqa: E402
 
@@ -108,7 +108,7 @@ def bitstream(args, work, sources):
     size = synthesis.size_of(synthesis.statistics(os.path.join(work, "cells.txt")), "demo_top", synthesis.ECP5)
     print("Yosys:", ", ".join(f"{count:,} {what}" for what, count in size.items()))
     synthesis.run([nextpnr, f"--{data['device']}", "--package", data["package"], "--speed", str(data["speed"]), "--json", "demo.json", "--top", "demo_top",
-                   "--lpf", board + ".lpf", "--placer", "static", "--router", "router2", "--seed", str(args.seed), "--report", "demo_report.json",
+                   "--lpf", board + ".lpf", *placement.PLACER, "--seed", str(args.seed), "--report", "demo_report.json",
                    "--textcfg", "demo.config"], work, "nextpnr.log")
     report = read_json(os.path.join(work, "demo_report.json"))
     for name, used in report["utilization"].items():

@@ -41,6 +41,14 @@ EDITS = {
     "quadrille_walk_values.sv": [
         ("lin_value_q1[g*VAL+:VAL] <= tile_q;", "lin_value_q1[g*VAL+:VAL] <= (g < 2 || g == 4) ? tile_q : '0;"),
     ],
+    # Three corners; the terms stand as the quad machine's, so that some are not used.
+    "quadrille_interpolate.sv": [
+        ("[4*E-1:0] m_exp_i", "[3*E-1:0] m_exp_i"),
+        ("[4*S-1:0] m_sig_i", "[3*S-1:0] m_sig_i"),
+        ("CORNERS = (t < 3) ? 4 : 3,", "CORNERS = (t < 3) ? 3 : 2,"),
+        ("V = 4 - CORNERS + c;", "V = 3 - CORNERS + c;"),
+        ("endmodule", "\n  logic unused;\n  assign unused = ^{term_neg_i, term_exp_i, term_sig_i};\nendmodule"),
+    ],
     # Counters of products are not the machine's; those of clocks, triangles, tiles and pixels are.
     "quadrille_performance_counters.sv": [
         ("DEPTH(quadrille_pkg::RATIO_STAGE - quadrille_pkg::ROOT_STAGE)", "DEPTH(1)"),
