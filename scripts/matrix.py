@@ -160,9 +160,9 @@ class Here:
 class Chroot(Here):
     """A clone of HEAD in a fresh Debian that has git alone, in build/matrix/ROW."""
     def __init__(self, name, release, log):
+        self.inside = False
         super().__init__(["debootstrap"], log)
         self.root = os.path.join(OUT, name)
-        self.inside = False
         shutil.rmtree(self.root, ignore_errors=True)
         self.execute(f"debootstrap --variant=minbase --include=git,ca-certificates {release} '{self.root}'", check=True)
         self.execute(f"git clone -q --no-hardlinks '{ROOT}' '{self.root}/quadrille'", check=True)
