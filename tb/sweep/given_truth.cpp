@@ -24,17 +24,19 @@ struct BandResult {
 
 }  // namespace
 
-GivenTruth::GivenTruth(const SweepInput& input, unsigned threads)
+GivenTruth::GivenTruth(const SweepInput& input, unsigned threads, const Stop& stop)
     : stride_(1 + Columns{static_cast<std::size_t>(input.attributes)}.count()), first_{0} {
   DrawState state = input.state;
   state.attributes = input.attributes;
   std::vector<Band> bands;
   for (std::size_t q = 0; q < input.quads.size(); ++q) {
+    stop.check();
     const golden::PixelRect box = golden::TruthQuad(input.quads[q], state).bounds();
     for (int y = box.y0; y < box.y1; y += rows_of_a_band) bands.push_back({q, y, std::min(y + rows_of_a_band, box.y1)});
   }
 
   const auto draw = [&](std::size_t unit) {
+    stop.check();
     const Band& band = bands[unit];
     const WindowQuad& quad = input.quads[band.quad];
     const golden::TruthQuad truth(quad, state);
