@@ -30,7 +30,6 @@ GivenTruth::GivenTruth(const SweepInput& input, unsigned threads, const Stop& st
   state.attributes = input.attributes;
   std::vector<Band> bands;
   for (std::size_t q = 0; q < input.quads.size(); ++q) {
-    stop.check();
     const golden::PixelRect box = golden::TruthQuad(input.quads[q], state).bounds();
     for (int y = box.y0; y < box.y1; y += rows_of_a_band) bands.push_back({q, y, std::min(y + rows_of_a_band, box.y1)});
   }
