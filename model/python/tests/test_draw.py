@@ -186,7 +186,7 @@ def test_forms_of_quads():
             quadrille.ConfigError,
             f"configuration key 'significand_bits' = {10**30} is outside 8..26",
         ),
-        (lambda: quadrille.method("", SQUARE), ValueError, "unknown method ''"),
+        (lambda: quadrille.method("", SQUARE), ValueError, "method '': the name is missing"),
         (
             lambda: quadrille.method("mvc", SQUARE * np.nan),
             quadrille.SnapError,
