@@ -113,7 +113,19 @@ TEST(Explain, RulesThatRejectAPixel) {
   EXPECT_EQ(of(box(10, 10, 30, 30, 0, 1), 15, 20, state).outcome, Outcome::drawn);
   e = of(box(10, 10, 30, 30, 0, 1), 25, 20, state);
   EXPECT_EQ(e.outcome, Outcome::depth_limits);
-  EXPECT_TRUE(says(e.why, "window z = 0.775 is outside [znear, zfar] = [0, 0.5]")) << e.why;
+  EXPECT_TRUE(says(e.why, "window z = 0.775 is above zfar = 0.5")) << e.why;
+  state.zfar = 1;
+  state.znear = 0.5;
+  e = of(box(10, 10, 30, 30, 0, 1), 15, 20, state);
+  EXPECT_TRUE(says(e.why, "window z = 0.275 is below znear = 0.5")) << e.why;
+  // Beyond the range that is stored: no number that would lie within the limits.
+  state.znear = 0;
+  WindowQuad around = box(10, 10, 30, 30, 0.5, 0.5);
+  for (const bool far : {false, true}) {
+    around.vertex[2] = {60, -60, far ? 3.0 : -3.0, -1};
+    e = of(around, far ? 24 : 27, 20, state);
+    EXPECT_TRUE(says(e.why, far ? "window z is above zfar = 1" : "window z is below znear = 0")) << e.why;
+  }
   EXPECT_EQ(of(box(10, 10, 30, 30, 0.75, 0.75), 25, 20, state).reject, QuadReject::depth);
 
   WindowQuad behind = quad;

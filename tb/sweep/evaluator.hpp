@@ -82,7 +82,7 @@ class Evaluator {
     bool cycles = true;              ///< also run the clocked model
     std::size_t batch_points = 256;  ///< points that are carried at once, about; bounds memory and loss by interruption
     std::size_t memory_bytes = std::size_t{2} << 30;  ///< of truth kept; what is in use may need more
-    Stop stop;                                        ///< ends evaluate() and error_map() with Stopped
+    Stop stop = {};                                   ///< ends evaluate() and error_map() with Stopped
   };
 
   Evaluator(const SweepInput& input, const Settings& settings);
