@@ -148,7 +148,8 @@ void Interruptible::operator()() {
 }
 
 void bind_draw(nb::module_& m) {
-  m.def("draw", draw, "quads"_a, "config"_a, "state"_a, "engine"_a, "method"_a.none(), "snap"_a, "weights"_a, "threads"_a);
+  m.def("draw", draw, "quads"_a, "config"_a, "state"_a, "engine"_a, "method"_a.none(), "snap"_a, "weights"_a,
+        "threads"_a);
   m.def("snap", snap, "quads"_a, "config"_a, "state"_a);
 }
 

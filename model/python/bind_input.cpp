@@ -274,8 +274,7 @@ void bind_quads(nb::module_& m) {
             return std::array{"none", "front", "back"}[static_cast<std::size_t>(self.cull)];
           },
           "As the scene wants it: none, front, back.");
-  m.def("from_arrays", from_arrays, "vertices"_a, "values"_a, "names"_a, "ids"_a.none(),
-        "like"_a.none());
+  m.def("from_arrays", from_arrays, "vertices"_a, "values"_a, "names"_a, "ids"_a.none(), "like"_a.none());
 }
 
 void bind_meshes(nb::module_& m) {

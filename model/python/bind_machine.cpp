@@ -20,8 +20,7 @@ struct Machine {
   Machine(const Config& config, DrawState state, std::vector<std::string> attributes)
       : names(std::move(attributes)), inner(config, with_attributes(state, names, config)) {}
 
-  static DrawState with_attributes(DrawState state, const std::vector<std::string>& attributes,
-                                   const Config& config) {
+  static DrawState with_attributes(DrawState state, const std::vector<std::string>& attributes, const Config& config) {
     check_names(attributes);
     state.attributes = static_cast<int>(attributes.size());
     check_draw_state(state, config);

@@ -135,10 +135,11 @@ struct Evaluator::Impl {
 
   std::shared_ptr<const PortQuads> port_quads(const Config& config) {
     Positions& entry = positions.at(level_key(config, Level::positions));
-    std::shared_ptr<const PortQuads>& port = entry.ports[port_key(config)];
-    if (!port)
-      port = std::make_shared<PortQuads>(input, *given, *entry.data, config, settings.threads, settings.stop);
-    return port;
+    const LevelKey key = port_key(config);
+    if (const auto known = entry.ports.find(key); known != entry.ports.end()) return known->second;
+    const auto port =
+        std::make_shared<const PortQuads>(input, *given, *entry.data, config, settings.threads, settings.stop);
+    return entry.ports[key] = port;
   }
 
   /// Points that draw the same numbers at the port: `points` hold one of each path.
