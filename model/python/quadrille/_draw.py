@@ -58,9 +58,11 @@ def make_state(
         size = (min(512, 2**config.viewport_bits),) * 2
     if not isinstance(cull, str):
         raise TypeError(f"cull: {cull!r}; none, front or back is expected")
+    width, height = wholes("size", size, "width, height")
     return _core.make_state(
         config,
-        *wholes("size", size, "width, height"),
+        width,
+        height,
         None if scissor is None else wholes("scissor", scissor, "x0, y0, x1, y1"),
         cull,
         perspective,

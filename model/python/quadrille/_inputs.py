@@ -30,7 +30,7 @@ def whole(what: str, value: Any, least: int = -(2**31), most: int = 2**31 - 1, h
     return number
 
 
-def wholes(what: str, values: Any, names: str, least: int = -(2**31)) -> tuple[int, ...]:
+def wholes(what: str, values: Any, names: str, least: int = -(2**31)) -> Any:  # a tuple of so many
     """An argument of several whole numbers, such as width, height."""
     several = () if isinstance(values, str) or not isinstance(values, Iterable) else tuple(values)
     if len(several) != len(names.split(", ")):
@@ -117,7 +117,8 @@ def scene(name: str, size: tuple[int, int] = (512, 512), attributes: str = "uv")
     attributes: uv (u, v), normal (nx, ny, nz), uv_normal, weights (w0 to w3), position (px, py, pz), colour (red,
     green, blue) or none.
     """
-    return _core.scene(name, *wholes("size", size, "width, height"), attributes)
+    width, height = wholes("size", size, "width, height")
+    return _core.scene(name, width, height, attributes)
 
 
 def scenes(workloads: bool = False) -> list[dict[str, Any]]:
@@ -129,13 +130,9 @@ def stress(
     family: str, count: int = 1000, *, seed: int = 1, size: tuple[int, int] = (512, 512), attributes: int = 4
 ) -> Quads:
     """Random quads of a stress family (`stress_families()`), with up to 4 random attributes a0, a1, …"""
-    return _core.stress(
-        family,
-        whole("count", count, 0),
-        whole("seed", seed, 0, 2**64 - 1),
-        *wholes("size", size, "width, height"),
-        whole("attributes", attributes, 0),
-    )
+    width, height = wholes("size", size, "width, height")
+    count, seed = whole("count", count, 0), whole("seed", seed, 0, 2**64 - 1)
+    return _core.stress(family, count, seed, width, height, whole("attributes", attributes, 0))
 
 
 def stress_families() -> dict[str, str]:
