@@ -235,8 +235,9 @@ def figure_article(figure, size, directory, address):
 
 
 INTRODUCTION = """<p>The papers’ figures of rendered quads, drawn again by <code>quadrille compare</code>: one column for each method. The first row of a
-sheet is the picture, the second the difference of the attributes from <code>refine:20</code> (20 × 20 bilinear refinement), the third the difference
-from exact mean value coordinates (mean value coordinates of the whole quad with 113-bit significands). A click on a sheet opens it in full size.</p>
+sheet is the picture, the second the change of slope, where a crease is a line. Then come differences of the attributes from <code>refine:20</code>
+(20 × 20 bilinear refinement) and from exact mean value coordinates (of the whole quad, with 113-bit significands). A click on a sheet opens it in
+full size.</p>
 <p>In the tables, a crease is the largest change of an attribute’s slope from one pixel to the next, in attribute per picture side, within 4
 pixels of the middle half of a quad’s diagonal; a smooth method has a small one that halves when the picture doubles, a split keeps its own.
 Differences are of attributes: (u, v), colour or normal. Quads and triangles are what the method sets up. The commands write relative to the

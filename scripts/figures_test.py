@@ -7,6 +7,7 @@ import html.parser
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -145,6 +146,14 @@ class Drawing(unittest.TestCase):
         self.assertEqual(self.draw(*names, program=program).returncode, 0)
         self.assertEqual(self.calls(program)[-len(scenes):], scenes)
         self.assertEqual(sorted(resumed), sorted(name for name in self.files() if name.endswith("table.csv")))
+
+    def test_ctrl_c_gives_one_line(self):
+        # What runs this test in the background may have had SIGINT ignored.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        done = self.draw("--only", "bloomenthal14", program=self.program("kill -INT $PPID; exec sleep 60"))
+        self.assertEqual(done.returncode, 130)
+        self.assertRegex(done.stderr, r"^\[1/\d+\] .*\nfigures.py: interrupted\n$")
 
     def test_sheets_of_another_size_or_program_are_drawn_anew(self):
         failing = self.program('case "$*" in *32x32*) exit 7;; esac; [ "$3" != bloomenthal14_b ] || [ -e "$0.2" ] || { touch "$0.2"; exit 7; }')

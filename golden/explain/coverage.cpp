@@ -153,9 +153,12 @@ std::string reject_text(QuadReject reject) {
 }
 
 std::string depth_text(const Subject& s) {
-  const double z = std::ldexp(static_cast<double>(s.machine.trace.fragment.depth), -s.config().depth_bits);
-  return "covered, but window z = " + short_number(z) + " is outside [znear, zfar] = [" +
-         short_number(s.state().znear) + ", " + short_number(s.state().zfar) + "]";
+  const std::uint32_t code = s.machine.trace.fragment.depth;  // a z below 0 is stored as 0
+  const bool far = code > s.context.zfar;
+  const std::string z = short_number(std::ldexp(static_cast<double>(code), -s.config().depth_bits));
+  const std::string limit = short_number(far ? s.state().zfar : s.state().znear);
+  return "covered, but window z" + (z == limit ? "" : " = " + z) + " is " + (far ? "above zfar = " : "below znear = ") +
+         limit;
 }
 
 }  // namespace

@@ -113,8 +113,20 @@ TEST(Explain, RulesThatRejectAPixel) {
   EXPECT_EQ(of(box(10, 10, 30, 30, 0, 1), 15, 20, state).outcome, Outcome::drawn);
   e = of(box(10, 10, 30, 30, 0, 1), 25, 20, state);
   EXPECT_EQ(e.outcome, Outcome::depth_limits);
-  EXPECT_TRUE(says(e.why, "window z = 0.775 is outside [znear, zfar] = [0, 0.5]")) << e.why;
+  EXPECT_TRUE(says(e.why, "window z = 0.775 is above zfar = 0.5")) << e.why;
   EXPECT_EQ(of(box(10, 10, 30, 30, 0.75, 0.75), 25, 20, state).reject, QuadReject::depth);
+  state.zfar = 1;
+  state.znear = 0.5;
+  e = of(box(10, 10, 30, 30, 0, 1), 15, 20, state);
+  EXPECT_TRUE(says(e.why, "window z = 0.275 is below znear = 0.5")) << e.why;
+  // Beyond the range that is stored: no number that would lie within the limits.
+  state.znear = 0;
+  WindowQuad around = box(10, 10, 30, 30, 0.5, 0.5);
+  for (const bool far : {false, true}) {
+    around.vertex[2] = {60, -60, far ? 3.0 : -3.0, -1};
+    e = of(around, far ? 24 : 27, 20, state);
+    EXPECT_TRUE(says(e.why, far ? "window z is above zfar = 1" : "window z is below znear = 0")) << e.why;
+  }
 
   WindowQuad behind = quad;
   for (WindowVertex& v : behind.vertex) v = {-v.x, -v.y, -v.z, -1};
@@ -295,6 +307,9 @@ TEST(Explain, JsonTextAndPage) {
   for (const char* part : {"Pixel (20, 20), quad 0: drawn", "1. ", "13. ", "A01", "exact: "})
     EXPECT_TRUE(says(text, part)) << part;
   EXPECT_GT(to_text(all[0], true).size(), text.size());
+  DrawState bare = state64();
+  bare.attributes = 0;
+  EXPECT_TRUE(says(to_text(of(box(10, 10, 30, 30), 12, 15, bare)), "(1 number is not needed at this pixel, and 0)"));
 
   const std::string page = to_html(all, "A & B <c>", "quadrille explain --pixel 20,20");
   EXPECT_TRUE(says(page, "<h1>A &amp; B &lt;c&gt;</h1>"));

@@ -124,7 +124,9 @@ std::string stage_text(const Stage& stage, std::size_t place, bool whole) {
     if (n.differs) table.add({"  RTL", stored_text(n, n.other)});
   }
   out += table.text("     ");
-  if (not_needed > 0) out += "     (" + std::to_string(not_needed) + " numbers are not needed at this pixel, and 0)\n";
+  if (not_needed > 0)
+    out += "     (" + std::to_string(not_needed) + (not_needed == 1 ? " number is" : " numbers are") +
+           " not needed at this pixel, and 0)\n";
   if (left_out > 0) out += "     (" + std::to_string(left_out) + " coefficients more with --verbose)\n";
   return out;
 }

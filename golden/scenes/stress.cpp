@@ -173,7 +173,10 @@ WindowQuad draw_stress(StressFamily family, StressDrawing& drawing, int width, i
 
 std::vector<WindowQuad> make_stress_without_weights(StressFamily family, std::size_t count, std::uint64_t seed,
                                                     int width, int height, int attributes, double knob) {
-  constexpr int weights = 4;
+  constexpr int weights = 4, most = max_attribute_slots - weights;
+  if (attributes < 0 || attributes > most)
+    throw std::invalid_argument("stress: " + std::to_string(attributes) + " attributes (0 to " + std::to_string(most) +
+                                ")");
   std::vector<WindowQuad> quads = make_stress(family, count, seed, knob, width, height, weights + attributes);
   for (WindowQuad& quad : quads)
     for (std::vector<double>& attribute : quad.attribute)

@@ -31,6 +31,9 @@ void set_keys(Config& config, const nb::kwargs& keys) {
       continue;
     }
     int number = 0;
+    if (PyLong_Check(value.ptr()) && !nb::try_cast(value, number))
+      throw ConfigError("configuration key '" + key + "' = " + nb::cast<std::string>(nb::repr(value)) + " is outside " +
+                        std::to_string(Config::key(key).minimum) + ".." + std::to_string(Config::key(key).maximum));
     if (!nb::try_cast(value, number))
       throw ConfigError(key + " = " + nb::cast<std::string>(nb::repr(value)) + ": not a whole number" +
                         (Config::key(key).standard == -1 ? " or \"auto\"" : ""));

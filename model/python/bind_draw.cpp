@@ -9,11 +9,13 @@
 #include "model/port/draw_state.hpp"
 #include "model/port/snap.hpp"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace quadrille::python {
@@ -22,15 +24,17 @@ namespace {
 using namespace nb::literals;
 using tb::EngineKind;
 
-std::unique_ptr<tb::Engine> engine_of(const Quads& quads, const std::string& method,
+std::unique_ptr<tb::Engine> engine_of(const Quads& quads, const std::optional<std::string>& given_method,
                                       const tb::EngineSettings& settings) {
-  if (method.empty())
+  if (!given_method)
     return settings.kind == EngineKind::model ? make_model_engine(settings) : make_reference_engine(settings);
+  const std::string& method = *given_method;
   const bool has_object_space = quads.corners.size() == quads.quads.size();
   if (!has_object_space && golden::methods::make_method(method)->needs_object_space())
     throw tb::UsageError("method " + method + " needs corners in object space, which " + quads.name + " does not have");
   std::vector<golden::methods::Quad> given(quads.quads.size());
   for (std::size_t i = 0; i < given.size(); ++i) {
+    static_cast<void>(snap_quad(quads.quads[i], settings.config, settings.state));  // refuses what no engine draws
     given[i].vertex = quads.quads[i].vertex;
     given[i].attribute = quads.quads[i].attribute;
     if (has_object_space) given[i].object = quads.corners[i], given[i].texture = quads.textures[i];
@@ -40,7 +44,7 @@ std::unique_ptr<tb::Engine> engine_of(const Quads& quads, const std::string& met
 
 /// `engine`: model, truth, float or fp32. `method` replaces it.
 nb::tuple draw(const Quads& quads, const Config& config, const DrawState& state, const std::string& engine,
-               const std::string& method, bool snap, bool weights, unsigned threads) {
+               const std::optional<std::string>& method, bool snap, bool weights, unsigned threads) {
   constexpr std::array kinds{EngineKind::model, EngineKind::truth, EngineKind::paper_float, EngineKind::paper_single};
   tb::EngineSettings settings;
   settings.kind = kinds[tb::choose("engine", engine, {"model", "truth", "float", "fp32"})];
@@ -48,7 +52,7 @@ nb::tuple draw(const Quads& quads, const Config& config, const DrawState& state,
   settings.state = state;
   settings.snap = snap;
   settings.threads = threads;
-  const bool codes = settings.kind == EngineKind::model && method.empty();
+  const bool codes = settings.kind == EngineKind::model && !method;
   const auto attributes = static_cast<int>(quads.attributes.size());
   FragmentRecords records(config, {state.depth, weights, codes, quads.attributes});
   {
@@ -144,7 +148,8 @@ void Interruptible::operator()() {
 }
 
 void bind_draw(nb::module_& m) {
-  m.def("draw", draw, "quads"_a, "config"_a, "state"_a, "engine"_a, "method"_a, "snap"_a, "weights"_a, "threads"_a);
+  m.def("draw", draw, "quads"_a, "config"_a, "state"_a, "engine"_a, "method"_a.none(), "snap"_a, "weights"_a,
+        "threads"_a);
   m.def("snap", snap, "quads"_a, "config"_a, "state"_a);
 }
 

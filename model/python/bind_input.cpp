@@ -50,27 +50,20 @@ std::vector<std::string> numbered(std::size_t count) {
   return names;
 }
 
-/// Field names of a record must differ.
-void check_names(const std::vector<std::string>& names) {
-  std::set<std::string> taken{"quad", "x", "y", "front", "flags", "depth", "depth_code", "l0", "l1", "l2", "l3"};
-  for (const std::string& name : names)
-    if (name.empty() || !taken.insert(name).second || !taken.insert(name + "_code").second)
-      throw std::invalid_argument("attribute name \"" + name +
-                                  "\" is empty or taken: names must differ from each other and from " +
-                                  "quad, x, y, front, flags, depth and l0 to l3");
-}
-
 Quads from_arrays(const Doubles& vertices, const Doubles& values, std::vector<std::string> names,
-                  const std::optional<Ids>& ids) {
+                  const std::optional<Ids>& ids, const Quads* like) {
   const std::size_t count = vertices.shape(0), attributes = values.shape(2);
   if (attributes > max_attribute_slots)
     throw std::invalid_argument(std::to_string(attributes) + " attributes; at most " +
                                 std::to_string(max_attribute_slots));
   check_names(names);
   Quads result;
-  result.name = "arrays";
+  if (like != nullptr)
+    result = *like;
+  else
+    result.name = "arrays";
   result.attributes = std::move(names);
-  result.quads.resize(count);
+  result.quads.assign(count, {});
   const double* v = vertices.data();
   const double* a = values.data();
   for (std::size_t i = 0; i < count; ++i) {
@@ -157,6 +150,9 @@ Quads load_quads(const std::filesystem::path& path) {
 }
 
 Quads picked(const Quads& quads, const std::vector<std::size_t>& positions) {
+  for (const std::size_t i : positions)
+    if (i >= quads.quads.size())
+      throw std::out_of_range("quad " + std::to_string(i) + " of " + std::to_string(quads.quads.size()));
   Quads result = quads;
   const auto pick = [&](auto& list) {
     if (list.empty()) return;
@@ -244,6 +240,13 @@ void bind_quads(nb::module_& m) {
                     "Quads of a draw in window coordinates: pixels, y down, pixel centres at +0.5, times w; window z "
                     "in [0, 1] times w.")
       .def("__len__", [](const Quads& self) { return self.quads.size(); })
+      .def("__repr__",
+           [](const Quads& self) {
+             std::string names;
+             for (const std::string& name : self.attributes) names += (names.empty() ? " of " : ", ") + name;
+             return "<" + std::to_string(self.quads.size()) + " quads of " + self.name + ", " +
+                    std::to_string(self.attributes.size()) + " attributes" + names + ">";
+           })
       .def("pick", picked, "positions"_a, "The quads at these positions; `quadrille.pick()` takes slices too.")
       .def_ro("name", &Quads::name, "Of the scene, file or family.")
       .def_ro("names", &Quads::attributes, "Names of the attributes.")
@@ -271,7 +274,7 @@ void bind_quads(nb::module_& m) {
             return std::array{"none", "front", "back"}[static_cast<std::size_t>(self.cull)];
           },
           "As the scene wants it: none, front, back.");
-  m.def("from_arrays", from_arrays, "vertices"_a, "values"_a, "names"_a, "ids"_a.none());
+  m.def("from_arrays", from_arrays, "vertices"_a, "values"_a, "names"_a, "ids"_a.none(), "like"_a.none());
 }
 
 void bind_meshes(nb::module_& m) {
@@ -339,6 +342,15 @@ void bind_meshes(nb::module_& m) {
 }
 
 }  // namespace
+
+void check_names(const std::vector<std::string>& names) {
+  std::set<std::string> taken{"quad", "x", "y", "front", "flags", "depth", "depth_code", "l0", "l1", "l2", "l3"};
+  for (const std::string& name : names)
+    if (name.empty() || !taken.insert(name).second || !taken.insert(name + "_code").second)
+      throw std::invalid_argument("attribute name \"" + name +
+                                  "\" is empty or taken: names must differ from each other and from " +
+                                  "quad, x, y, front, flags, depth and l0 to l3");
+}
 
 void bind_input(nb::module_& m) {
   bind_quads(m);

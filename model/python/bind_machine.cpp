@@ -18,10 +18,11 @@ using namespace nb::literals;
 /// The machine of the C interface, with names for attributes.
 struct Machine {
   Machine(const Config& config, DrawState state, std::vector<std::string> attributes)
-      : names(std::move(attributes)), inner(config, with_attributes(state, names.size(), config)) {}
+      : names(std::move(attributes)), inner(config, with_attributes(state, names, config)) {}
 
-  static DrawState with_attributes(DrawState state, std::size_t attributes, const Config& config) {
-    state.attributes = static_cast<int>(attributes);
+  static DrawState with_attributes(DrawState state, const std::vector<std::string>& attributes, const Config& config) {
+    check_names(attributes);
+    state.attributes = static_cast<int>(attributes.size());
     check_draw_state(state, config);
     return state;
   }

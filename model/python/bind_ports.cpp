@@ -51,6 +51,10 @@ std::string state_word(const Config& config, DrawState state, int attributes) {
 
 nb::tuple fragments_of(const std::vector<std::string>& words, const Config& config, bool depth,
                        const std::vector<std::string>& names) {
+  check_names(names);
+  if (names.size() > static_cast<std::size_t>(config.attribute_slots))
+    throw std::invalid_argument(std::to_string(names.size()) + " names; a fragment has attribute_slots = " +
+                                std::to_string(config.attribute_slots) + " attributes");
   FragmentRecords fragments(config, {depth, false, true, names});
   const int bits = fragment_bits(config);
   for (std::size_t i = 0; i < words.size(); ++i) {

@@ -1,5 +1,6 @@
 // The sweep: errors, bounds, costs and clocks of many configurations on one input.
 #include "model/port/draw_state.hpp"
+#include "model/port/snap.hpp"
 #include "model/python/binding.hpp"
 #include "model/support/parallel.hpp"
 #include "tb/sweep/evaluator.hpp"
@@ -11,6 +12,10 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
 #include <utility>
 
 namespace quadrille::python {
@@ -31,11 +36,26 @@ sweep::SweepInput input_of(const Quads& quads, const DrawState& state) {
   return {quads.quads, static_cast<int>(quads.attributes.size()), state};
 }
 
-/// The text of points.csv, without `worst`.
-std::string swept(const Quads& quads, const std::vector<std::string>& axes, const Config& base, const DrawState& state,
-                  bool one_at_a_time, bool cycles, const std::string& objective, unsigned threads) {
+/// Calls work(stop) on a thread of its own, without the interpreter's lock; Ctrl-C asks it to end.
+void end_on_interrupt(const std::function<void(sweep::Stop)>& work) {
   const nb::gil_scoped_release released;
+  std::atomic<bool> stop{false};
+  std::future<void> end = std::async(std::launch::async, work, sweep::Stop{&stop});
   Interruptible interruptible;
+  while (end.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) try {
+      interruptible();
+    } catch (...) {
+      stop = true;
+      end.wait();
+      throw;
+    }
+  end.get();
+}
+
+/// The text of points.csv, without `worst`.
+std::string table_of(const Quads& quads, const std::vector<std::string>& axes, const Config& base,
+                     const DrawState& state, bool one_at_a_time, bool cycles, const std::string& objective,
+                     unsigned threads, sweep::Stop stop) {
   const sweep::ErrorColumn column = sweep::parse_error_column(objective);
   std::vector<sweep::Axis> parsed;
   for (const std::string& axis : axes) parsed.push_back(sweep::parse_axis(axis));
@@ -44,7 +64,7 @@ std::string swept(const Quads& quads, const std::vector<std::string>& axes, cons
   constexpr std::uint64_t most_points = 1'000'000;
   if (grid.size() > most_points) throw ConfigError(std::to_string(grid.size()) + " points, more than a million");
   const sweep::SweepInput input = input_of(quads, state_of(state, grid));
-  sweep::Evaluator evaluator(input, {.threads = threads, .cycles = cycles});
+  sweep::Evaluator evaluator(input, {.threads = threads, .cycles = cycles, .stop = stop});
   sweep::OrdinaryInput ordinary(input);
 
   std::vector<sweep::PointRow> rows(grid.size());
@@ -59,12 +79,9 @@ std::string swept(const Quads& quads, const std::vector<std::string>& axes, cons
     configs.push_back(point.config);
     row_of.push_back(row);
   }
-  evaluator.evaluate(
-      configs,
-      [&](const sweep::Batch& batch) {
-        for (std::size_t i = 0; i < batch.points.size(); ++i) rows[row_of[batch.points[i]]].result = batch.results[i];
-      },
-      [&](double) { interruptible(); });
+  evaluator.evaluate(configs, [&](const sweep::Batch& batch) {
+    for (std::size_t i = 0; i < batch.points.size(); ++i) rows[row_of[batch.points[i]]].result = batch.results[i];
+  });
   std::vector<sweep::CostError> points;
   for (sweep::PointRow& row : rows) {
     if (row.result.refused.empty()) complete_row(row, ecp5_weights, ordinary(row.config), input.state.perspective);
@@ -74,17 +91,30 @@ std::string swept(const Quads& quads, const std::vector<std::string>& axes, cons
   return sweep::point_table(rows);
 }
 
+std::string swept(const Quads& quads, const std::vector<std::string>& axes, const Config& base, const DrawState& state,
+                  bool one_at_a_time, bool cycles, const std::string& objective, unsigned threads) {
+  std::string table;
+  end_on_interrupt([&](sweep::Stop stop) {
+    table = table_of(quads, axes, base, state, one_at_a_time, cycles, objective, threads, stop);
+  });
+  return table;
+}
+
 nb::ndarray<nb::numpy, float> error_map(const Quads& quads, const Config& config, const DrawState& state,
                                         unsigned threads) {
   auto* const values = new std::vector<float>;
   const nb::capsule owner(values, [](void* p) noexcept { delete static_cast<std::vector<float>*>(p); });
-  {
-    const nb::gil_scoped_release released;
+  end_on_interrupt([&](sweep::Stop stop) {
     const sweep::SweepInput input = input_of(quads, state);
-    sweep::Evaluator evaluator(input, {.threads = threads, .cycles = false});
-    if (const std::string reason = evaluator.refusal(config); !reason.empty()) throw ConfigError(reason);
+    sweep::Evaluator evaluator(input, {.threads = threads, .cycles = false, .stop = stop});
+    if (const std::string reason = evaluator.refusal(config); !reason.empty()) {
+      DrawState own = state;
+      own.attributes = input.attributes;
+      for (const WindowQuad& quad : quads.quads) static_cast<void>(snap_quad(quad, config, own));  // SnapError first
+      throw ConfigError(reason);
+    }
     *values = evaluator.error_map(config);
-  }
+  });
   return {values->data(), {static_cast<std::size_t>(state.height), static_cast<std::size_t>(state.width)}, owner};
 }
 

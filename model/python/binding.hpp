@@ -33,6 +33,9 @@ struct Quads {
 /// The records as bytes, with the fields that numpy.dtype needs: (bytes, [(name, format, offset)], bytes of a record).
 nb::tuple array_of(FragmentRecords&& records);
 
+/// Field names of a record must differ. Throws std::invalid_argument.
+void check_names(const std::vector<std::string>& names);
+
 /// A fragment at the port: the hexadecimal digits of fragment_t.
 std::string fragment_word(const Fragment& fragment, const Config& config);
 

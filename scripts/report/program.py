@@ -28,7 +28,7 @@ def page_option(parser, default):
 
 
 def end(main):
-    """Ends the script with the status that `main` returns, or with that of its exception and the message. SIGTERM ends it as an exception
+    """Ends the script with the status that `main` returns, or with that of its exception and the message. SIGTERM and Ctrl-C end it as an exception
     does, so that temporary folders go."""
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
@@ -36,3 +36,6 @@ def end(main):
     except Failed as error:
         print(f"{os.path.basename(sys.argv[0])}: {error}", file=sys.stderr)
         sys.exit(error.status)
+    except KeyboardInterrupt:
+        print(f"{os.path.basename(sys.argv[0])}: interrupted", file=sys.stderr)
+        sys.exit(128 + signal.SIGINT)

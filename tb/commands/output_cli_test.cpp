@@ -21,7 +21,7 @@ TEST_F(Cli, AFileHasTheFormatOfItsName) {
       const std::string name = (*match)[1], ending = (*match)[3];
       if (inputs.contains(name)) continue;
       ++tried;
-      for (const std::string other : {"png", "exr", "JPG", "json", "csv", "quads"}) {
+      for (const std::string other : {"png", "exr", "JPG", "json", "csv", "quads", "parquet"}) {
         if (other == ending) continue;
         std::vector<std::string> pieces{name, "x." + other + ": "};
         if (!ending.empty()) pieces.push_back("such as x." + ending);

@@ -12,7 +12,7 @@ namespace quadrille::tb {
 namespace {
 
 /// Endings that say what a file holds, and its name for people.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 32> formats{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 33> formats{{
     {"bin", "binary data"},
     {"bmp", "BMP"},
     {"csv", "CSV"},
@@ -31,6 +31,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 32> formats{
     {"npy", "a NumPy array"},
     {"npz", "NumPy arrays"},
     {"obj", "Wavefront OBJ"},
+    {"parquet", "Parquet"},
     {"pdf", "PDF"},
     {"png", "PNG"},
     {"ppm", "PPM"},

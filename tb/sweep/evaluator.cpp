@@ -96,6 +96,7 @@ struct Evaluator::Impl {
 
   /// Why a configuration cannot draw the input; empty if it can.
   std::string refusal(const Config& config) {
+    settings.stop.check();
     const int limit = 1 << config.viewport_bits;
     if (input.state.width > limit || input.state.height > limit)
       return "a viewport of " + std::to_string(input.state.width) + "x" + std::to_string(input.state.height) +
@@ -119,12 +120,12 @@ struct Evaluator::Impl {
 
   std::shared_ptr<const PositionData> position_data(const Config& config, StageCounters& executed) {
     if (!given) {
-      given.emplace(input, settings.threads);
+      given.emplace(input, settings.threads, settings.stop);
       count(executed, Stage::given_truth, given->pixels());
     }
     const LevelKey key = level_key(config, Level::positions);
     if (!positions.contains(key)) {
-      auto data = std::make_shared<PositionData>(input, *given, config, settings.threads);
+      auto data = std::make_shared<PositionData>(input, *given, config, settings.threads, settings.stop);
       count(executed, Stage::snap_truth, data->fragments);
       positions[key].data = std::move(data);
     }
@@ -134,9 +135,11 @@ struct Evaluator::Impl {
 
   std::shared_ptr<const PortQuads> port_quads(const Config& config) {
     Positions& entry = positions.at(level_key(config, Level::positions));
-    std::shared_ptr<const PortQuads>& port = entry.ports[port_key(config)];
-    if (!port) port = std::make_shared<PortQuads>(input, *given, *entry.data, config, settings.threads);
-    return port;
+    const LevelKey key = port_key(config);
+    if (const auto known = entry.ports.find(key); known != entry.ports.end()) return known->second;
+    const auto port =
+        std::make_shared<const PortQuads>(input, *given, *entry.data, config, settings.threads, settings.stop);
+    return entry.ports[key] = port;
   }
 
   /// Points that draw the same numbers at the port: `points` hold one of each path.
@@ -156,8 +159,10 @@ struct Evaluator::Impl {
     for (std::size_t q = 0; q < snapped.size(); ++q) snapped[q].id = static_cast<std::uint32_t>(q);
     DrivenModel machine(config, state);
     SteadyBeats beats(snapped);
-    return drive(machine, beats,
-                 [&](std::uint64_t, const ClockedOutputs& out, bool) { return !beats.done() || out.busy; });
+    return drive(machine, beats, [&](std::uint64_t cycle, const ClockedOutputs& out, bool) {
+      if (cycle % 65536 == 0) settings.stop.check();
+      return !beats.done() || out.busy;
+    });
   }
 
   CyclesKey cycles_of(const Config& config) const { return cycles_key(config, input.state); }
@@ -223,6 +228,7 @@ struct Evaluator::Impl {
     run_units(
         units, settings.threads,
         [&](std::size_t unit, unsigned thread) {
+          settings.stop.check();
           if (unit < runs.size()) {
             runs[unit].second = clocks(points[runs[unit].first]);
             return;
@@ -343,6 +349,7 @@ std::vector<float> Evaluator::error_map(const Config& point) {
   std::vector<DrawTotals> totals(m.settings.threads);
   const std::vector<DrawPart> parts = draw_parts(*at, state);
   run_units(parts.size(), m.settings.threads, [&](std::size_t part, unsigned thread) {
+    m.settings.stop.check();
     const PointDraw draw{point, &totals[thread]};
     draw_points(m.input, *at, *port, std::span(&draw, 1), parts[part], lane_errors);
   });

@@ -6,6 +6,7 @@
 #include "model/port/records.hpp"
 #include "tb/sweep/point_result.hpp"
 #include "tb/sweep/stage_keys.hpp"
+#include "tb/sweep/work_units.hpp"
 
 #include <array>
 #include <cstddef>
@@ -81,6 +82,7 @@ class Evaluator {
     bool cycles = true;              ///< also run the clocked model
     std::size_t batch_points = 256;  ///< points that are carried at once, about; bounds memory and loss by interruption
     std::size_t memory_bytes = std::size_t{2} << 30;  ///< of truth kept; what is in use may need more
+    Stop stop = {};                                   ///< ends evaluate() and error_map() with Stopped
   };
 
   Evaluator(const SweepInput& input, const Settings& settings);

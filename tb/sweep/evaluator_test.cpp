@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <set>
@@ -801,6 +802,29 @@ TEST(Evaluator, ErrorMapHoldsTheLargestErrorOfEachPixel) {
   }
   EXPECT_EQ(largest, static_cast<float>(evaluator.evaluate(c).arithmetic[0].max));
   EXPECT_EQ(std::count(want.begin(), want.end(), -1.0) > 0, true);
+}
+
+TEST(Evaluator, EveryStageEndsOnRequest) {
+  const SweepInput input = mixed_input();
+  const std::vector<Config> points = mixed_points();
+  std::atomic<bool> flag = true;
+  const Stop stop{&flag};
+  EXPECT_THROW(GivenTruth(input, 2, stop), Stopped);
+  const GivenTruth given(input, 1);
+  EXPECT_THROW(PositionData(input, given, points[0], 2, stop), Stopped);
+  const PositionData positions(input, given, points[0], 1);
+  EXPECT_THROW(PortQuads(input, given, positions, points[0], 2, stop), Stopped);
+  for (const unsigned threads : {1u, 3u}) {
+    Evaluator evaluator(input, {.threads = threads, .batch_points = 4, .stop = stop});
+    flag = true;
+    EXPECT_THROW(evaluator.evaluate(points, [](const Batch&) {}), Stopped);
+    EXPECT_THROW(evaluator.error_map(points[0]), Stopped);
+    flag = false;
+    EXPECT_THROW(evaluator.evaluate(points, [&](const Batch&) { flag = true; }), Stopped);
+    flag = false;
+    Evaluator fresh(input, {.threads = 1});
+    EXPECT_EQ(run(evaluator, points).results, run(fresh, points).results);
+  }
 }
 
 TEST(Evaluator, AnExceptionOfACallbackPassesThrough) {

@@ -24,7 +24,7 @@ struct BandResult {
 
 }  // namespace
 
-GivenTruth::GivenTruth(const SweepInput& input, unsigned threads)
+GivenTruth::GivenTruth(const SweepInput& input, unsigned threads, const Stop& stop)
     : stride_(1 + Columns{static_cast<std::size_t>(input.attributes)}.count()), first_{0} {
   DrawState state = input.state;
   state.attributes = input.attributes;
@@ -35,6 +35,7 @@ GivenTruth::GivenTruth(const SweepInput& input, unsigned threads)
   }
 
   const auto draw = [&](std::size_t unit) {
+    stop.check();
     const Band& band = bands[unit];
     const WindowQuad& quad = input.quads[band.quad];
     const golden::TruthQuad truth(quad, state);

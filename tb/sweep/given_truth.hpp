@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tb/sweep/measured_columns.hpp"
+#include "tb/sweep/work_units.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace quadrille::sweep {
 /// The pixels that the given quads draw: covered, visible, not culled, window z in the interval (depth on).
 class GivenTruth {
  public:
-  GivenTruth(const SweepInput& input, unsigned threads);
+  GivenTruth(const SweepInput& input, unsigned threads, const Stop& stop = {});
 
   std::size_t pixels() const { return pixel_.size(); }
   /// Where quad `index`'s pixels begin; they rise by y, then x. `index` may be the number of quads.

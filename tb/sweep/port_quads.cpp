@@ -69,7 +69,7 @@ void Spread::merge(const Spread& other) {
 }
 
 PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const PositionData& positions,
-                     const Config& config, unsigned threads)
+                     const Config& config, unsigned threads, const Stop& stop)
     : truth_(input.quads.size()),
       znear_(std::ldexp(depth_code(input.state.znear, config), -config.depth_bits)),
       zfar_(std::ldexp(depth_code(input.state.zfar, config), -config.depth_bits)) {
@@ -85,6 +85,7 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
   quads_.resize(input.quads.size());
   std::vector<std::vector<SingularPixel>> singular(input.quads.size());
   run_units(units_of(input.quads.size(), ports_per_unit), threads, [&](std::size_t unit, unsigned) {
+    stop.check();
     for (std::size_t q = unit * ports_per_unit; q < std::min((unit + 1) * ports_per_unit, input.quads.size()); ++q) {
       PortQuad& port = quads_[q] = PortQuad(input.quads[q], q, columns.attributes, config, input.state);
       truth_[q] = truth_numbers(port, columns, config, input.state.perspective);
@@ -109,6 +110,7 @@ PortQuads::PortQuads(const SweepInput& input, const GivenTruth& given, const Pos
   std::vector<OutputStats> parts(std::max(1u, threads));
   std::vector<std::uint64_t> drawn(parts.size());
   run_units(units_of(positions.blocks(), truths_per_unit), threads, [&](std::size_t unit, unsigned thread) {
+    stop.check();
     const std::size_t first = unit * truths_per_unit;
     const std::size_t count = std::min(truths_per_unit, positions.blocks() - first);
     const std::size_t stride = truth_per_block(columns);

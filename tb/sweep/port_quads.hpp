@@ -40,7 +40,7 @@ inline constexpr std::size_t truth_per_block(const Columns& columns) { return 1 
 class PortQuads {
  public:
   PortQuads(const SweepInput& input, const GivenTruth& given, const PositionData& positions, const Config& config,
-            unsigned threads);
+            unsigned threads, const Stop& stop = {});
 
   const PortQuad& quad(std::size_t quad) const { return quads_[quad]; }
   /// Truth on the snapped quads against truth on the given ones, at pixels that both draw.

@@ -59,7 +59,7 @@ void fill_truth(PositionData& data, std::size_t block, const golden::TruthQuad& 
 }  // namespace
 
 PositionData::PositionData(const SweepInput& input, const GivenTruth& given_truth, const Config& config,
-                           unsigned threads) {
+                           unsigned threads, const Stop& stop) {
   DrawState state = input.state;
   state.attributes = 0;
   for (std::size_t q = 0; q < input.quads.size(); ++q) {
@@ -69,6 +69,7 @@ PositionData::PositionData(const SweepInput& input, const GivenTruth& given_trut
 
   using Lists = std::vector<std::vector<std::uint32_t>>;
   const auto cover = [&](std::size_t unit) {
+    stop.check();
     Lists lists;
     for (std::size_t q = unit * quads_per_unit; q < std::min((unit + 1) * quads_per_unit, snapped.size()); ++q) {
       std::vector<std::uint32_t>& list = lists.emplace_back();
@@ -115,6 +116,7 @@ PositionData::PositionData(const SweepInput& input, const GivenTruth& given_trut
   visible.resize(blocks());
   singular.resize(blocks());
   run_units(units_of(blocks(), blocks_per_unit), threads, [&](std::size_t unit, unsigned) {
+    stop.check();
     std::size_t block = unit * blocks_per_unit;
     const std::size_t end = std::min(block + blocks_per_unit, blocks());
     while (block < end) {

@@ -20,7 +20,8 @@ struct TruthWeights {
 /// Covered pixels in blocks of eight of one quad (the last block of a quad repeats a pixel to fill up), quads in order,
 /// within a quad by y, then x. So every difference setting fills the same lanes, whatever its tiles.
 struct PositionData {
-  PositionData(const SweepInput& input, const GivenTruth& given, const Config& config, unsigned threads);
+  PositionData(const SweepInput& input, const GivenTruth& given, const Config& config, unsigned threads,
+               const Stop& stop = {});
 
   std::size_t blocks() const { return quad.size(); }
   std::size_t bytes() const;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypedDict
@@ -11,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._core import Config, Quads
-from ._inputs import QuadsLike, as_quads
+from ._inputs import QuadsLike, as_quads, whole, wholes
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -23,7 +24,7 @@ class DrawState(TypedDict, total=False):
     size: viewport; default that of the quads, else 512 × 512, or what the configuration has.
     scissor: x0, y0, x1, y1, half-open, inside the viewport. cull: none, front, back. perspective: attributes are
     perspective-correct. depth: window z is computed and clipped to [znear, zfar]. skip: names of work to leave out
-    (tiles, quads, hidden, walk, operands, plane), default what keeps every fragment.
+    (tiles, quads, hidden, walk, operands, plane), or one such name; default what keeps every fragment.
     """
 
     size: tuple[int, int]
@@ -47,11 +48,28 @@ def make_state(
     znear: float = 0.0,
     zfar: float = 1.0,
     skip: Iterable[str] | None = None,
+    **unknown: object,
 ) -> _core.DrawState:
+    for name in unknown:
+        near = difflib.get_close_matches(name, DrawState.__annotations__, 1)
+        hint = f'; did you mean "{near[0]}"?' if near else ""
+        raise TypeError(f'unknown keyword "{name}"{hint} (of a draw: {", ".join(DrawState.__annotations__)})')
     if size is None:
         size = (min(512, 2**config.viewport_bits),) * 2
+    if not isinstance(cull, str):
+        raise TypeError(f"cull: {cull!r}; none, front or back is expected")
+    width, height = wholes("size", size, "width, height")
     return _core.make_state(
-        config, *size, scissor, cull, perspective, depth, znear, zfar, None if skip is None else list(skip)
+        config,
+        width,
+        height,
+        None if scissor is None else wholes("scissor", scissor, "x0, y0, x1, y1"),
+        cull,
+        perspective,
+        depth,
+        znear,
+        zfar,
+        None if skip is None else [skip] if isinstance(skip, str) else list(skip),
     )
 
 
@@ -59,18 +77,14 @@ def state_of(quads: Quads, config: Config, state: DrawState) -> _core.DrawState:
     """Where nothing else is asked for, what the quads were made for."""
     if quads.size is not None:
         state = {"size": quads.size, **state}
-    if not quads.perspective:
-        state = {**state, "perspective": False}
-    if quads.cull != "none" and state.get("cull", "none") == "none":
-        state = {**state, "cull": quads.cull}
-    options: dict[str, Any] = dict(state)
+    options: dict[str, Any] = {"perspective": quads.perspective, "cull": quads.cull, **state}
     return make_state(config, options.pop("size", None), **options)
 
 
 def thread_count(threads: int | None) -> int:
-    if threads is not None and threads < 1:
-        raise ValueError(f"threads: {threads}; a number from 1 on, or None for all processors")
-    return threads or len(os.sched_getaffinity(0))
+    if threads is None:
+        return len(os.sched_getaffinity(0))
+    return whole("threads", threads, 1, hint=", or None for all processors,")
 
 
 def as_array(made: tuple[Any, list[tuple[str, str, int]], int]) -> npt.NDArray[np.void]:
@@ -85,7 +99,7 @@ def _drawn(
     attributes: npt.ArrayLike | None,
     config: Config | None,
     engine: str,
-    method_name: str,
+    method_name: str | None,
     snapped: bool,
     weights: bool,
     names: Sequence[str] | None,
@@ -128,7 +142,7 @@ def draw(
 
     The lock of the interpreter is released. Raises SnapError for a quad that cannot be drawn.
     """
-    return _drawn(quads, attributes, config, "model", "", True, weights, names, threads, state)
+    return _drawn(quads, attributes, config, "model", None, True, weights, names, threads, state)
 
 
 def truth(
@@ -147,7 +161,7 @@ def truth(
     Fields as of `draw()`, without codes; a quad's fragments by y, then x. The machine's values differ by at most
     `Config.bounds()`; visibility of a quad with the eye in its hull may differ.
     """
-    return _drawn(quads, attributes, config, "truth", "", snapped, weights, names, threads, state)
+    return _drawn(quads, attributes, config, "truth", None, snapped, weights, names, threads, state)
 
 
 def paper(
@@ -165,7 +179,7 @@ def paper(
     """The same by the paper's formulas as printed, in double or single precision. Flag 256: divided by 0; the numbers
     are invalid."""
     return _drawn(
-        quads, attributes, config, "fp32" if single else "float", "", snapped, weights, names, threads, state
+        quads, attributes, config, "fp32" if single else "float", None, snapped, weights, names, threads, state
     )
 
 
@@ -201,7 +215,12 @@ def picture(
 
     Depth test LESS: of equal depths, and without depth, the first fragment stays.
     """
-    width, height = size
+    width, height = wholes("size", size, "width, height", least=1)
+    if len(fragments) and (fragments["x"].max() >= width or fragments["y"].max() >= height):
+        raise ValueError(
+            f"size: {width}x{height}; there is a fragment in column {fragments['x'].max()} and one in row "
+            f"{fragments['y'].max()}: give the size that was drawn"
+        )
     position = np.arange(len(fragments))
     depth = fragments["depth"] if "depth" in (fragments.dtype.names or ()) else np.zeros(len(fragments))
     order = np.lexsort((position, depth))[::-1]  # farthest first: what is written last stays

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Config, Explanation
 from ._draw import DrawState, state_of
-from ._inputs import QuadsLike, as_quads
+from ._inputs import QuadsLike, as_quads, wholes
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -32,8 +32,7 @@ def explain(
     """
     config = config or Config()
     given = as_quads(quads, attributes, names=names)
-    x, y = pixel
-    return _core.explain(given, config, state_of(given, config, state), x, y)
+    return _core.explain(given, config, state_of(given, config, state), *wholes("pixel", pixel, "x, y"))
 
 
 def explanation_stages(explanation: Explanation) -> dict[str, dict[str, dict[str, Any]]]:

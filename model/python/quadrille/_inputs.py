@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Iterable, Sequence
 from typing import Any, Union
@@ -14,8 +15,35 @@ from ._core import Camera, Config, Mesh, Quads
 
 QuadsLike = Union[Quads, npt.ArrayLike]
 StrPath = Union[str, "os.PathLike[str]"]
-#: Sides of a mesh from which an automatic camera looks; z up where `up` says so.
+#: x, y, z in the mesh's space, of any length but 0.
 Direction = Sequence[float]
+
+
+def whole(what: str, value: Any, least: int = -(2**31), most: int = 2**31 - 1, hint: str = "") -> int:
+    """An argument that is a whole number, also one of NumPy's."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}: {value!r}; a whole number{hint} is expected") from None
+    if not least <= number <= most:
+        raise ValueError(f"{what}: {number}; a whole number from {least} to {most}{hint} is expected")
+    return number
+
+
+def wholes(what: str, values: Any, names: str, least: int = -(2**31)) -> Any:  # a tuple of so many
+    """An argument of several whole numbers, such as width, height."""
+    several = () if isinstance(values, str) or not isinstance(values, Iterable) else tuple(values)
+    if len(several) != len(names.split(", ")):
+        raise TypeError(f"{what}: {values!r}; {names} are expected")
+    return tuple(whole(what, value, least) for value in several)
+
+
+def _direction(what: str, values: Direction) -> tuple[float, ...]:
+    try:
+        x, y, z = map(float, values)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}: {values!r}; three numbers x, y, z are expected") from None
+    return x, y, z
 
 
 def as_quads(
@@ -25,12 +53,13 @@ def as_quads(
     names: Sequence[str] | None = None,
     ids: npt.ArrayLike | None = None,
 ) -> Quads:
-    """Quads of arrays. A `Quads` without attributes given is returned as it is.
+    """Quads of arrays. A `Quads` alone is returned as it is; with other attributes, names or ids it keeps all else.
 
     quads: (n, 4, 4) x̃, ỹ, z̃, w of each corner; or (n, 4, 2) x, y and (n, 4, 3) x, y, z with w = 1.
     attributes: (n, 4, a), or (n, 4) for one; a ≤ 8. names: of the attributes, default a0, a1, …
     ids: (n,) whole numbers that fragments carry, default 0 to n − 1.
     """
+    like = quads if isinstance(quads, Quads) else None
     if isinstance(quads, Quads):
         if attributes is None and names is None and ids is None:
             return quads
@@ -59,6 +88,8 @@ def as_quads(
     if values.ndim != 3 or values.shape[:2] != (count, 4):
         raise ValueError(f"attributes: shape {values.shape}; ({count}, 4, a) is expected, a value of each corner")
     names = [f"a{i}" for i in range(values.shape[2])] if names is None else list(names)
+    if not all(isinstance(name, str) for name in names):
+        raise TypeError(f"names: {names!r}; a text for each attribute is expected")
     if len(names) != values.shape[2]:
         raise ValueError(f"names: {len(names)} of {values.shape[2]} attributes")
     numbers = None
@@ -71,15 +102,13 @@ def as_quads(
         ):
             raise ValueError(f"ids: ({count},) whole numbers from 0 to 2^32 − 1 are expected")
         numbers = np.ascontiguousarray(numbers, dtype=np.uint32)
-    return _core.from_arrays(np.ascontiguousarray(vertices), np.ascontiguousarray(values), names, numbers)
+    return _core.from_arrays(np.ascontiguousarray(vertices), np.ascontiguousarray(values), names, numbers, like)
 
 
 def pick(quads: Quads, positions: int | slice | Iterable[int]) -> Quads:
     """Some of the quads, by position: a number, a slice, or several numbers. Ids stay."""
-    chosen = np.atleast_1d(
-        np.arange(len(quads))[positions if isinstance(positions, (int, slice)) else list(positions)]
-    )
-    return quads.pick(chosen.tolist())
+    several = list(positions) if isinstance(positions, Iterable) else positions
+    return quads.pick(np.atleast_1d(np.arange(len(quads))[several]).tolist())
 
 
 def scene(name: str, size: tuple[int, int] = (512, 512), attributes: str = "uv") -> Quads:
@@ -88,7 +117,8 @@ def scene(name: str, size: tuple[int, int] = (512, 512), attributes: str = "uv")
     attributes: uv (u, v), normal (nx, ny, nz), uv_normal, weights (w0 to w3), position (px, py, pz), colour (red,
     green, blue) or none.
     """
-    return _core.scene(name, *size, attributes)
+    width, height = wholes("size", size, "width, height")
+    return _core.scene(name, width, height, attributes)
 
 
 def scenes(workloads: bool = False) -> list[dict[str, Any]]:
@@ -99,8 +129,10 @@ def scenes(workloads: bool = False) -> list[dict[str, Any]]:
 def stress(
     family: str, count: int = 1000, *, seed: int = 1, size: tuple[int, int] = (512, 512), attributes: int = 4
 ) -> Quads:
-    """Random quads of a stress family (`stress_families()`), with random attributes a0, a1, …"""
-    return _core.stress(family, count, seed, *size, attributes)
+    """Random quads of a stress family (`stress_families()`), with up to 4 random attributes a0, a1, …"""
+    width, height = wholes("size", size, "width, height")
+    count, seed = whole("count", count, 0), whole("seed", seed, 0, 2**64 - 1)
+    return _core.stress(family, count, seed, width, height, whole("attributes", attributes, 0))
 
 
 def stress_families() -> dict[str, str]:
@@ -115,7 +147,9 @@ def corner(
     from ._draw import make_state
 
     config = config or Config()
-    return _core.corner(group, config, make_state(config, size), seed, attributes)
+    return _core.corner(
+        group, config, make_state(config, size), whole("seed", seed, 0, 2**64 - 1), whole("attributes", attributes, 0)
+    )
 
 
 def corners() -> dict[str, str]:
@@ -144,9 +178,11 @@ def project(
     Id: 0-based face. A triangle becomes (a, b, c, c); a face with more corners is cut, and refused with `strict`.
     attributes: as of `scene()`.
     """
+    width, height = wholes("size", size, "width, height")
     if camera is None:
-        camera = _core.frame_mesh(mesh, *size, tuple(up), None if view_from is None else tuple(view_from))
-    return _core.project(mesh, camera, *size, attributes, strict)
+        direction = None if view_from is None else _direction("view_from", view_from)
+        camera = _core.frame_mesh(mesh, width, height, _direction("up", up), direction)
+    return _core.project(mesh, camera, width, height, attributes, strict)
 
 
 def load_mesh(

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Config
 from ._draw import DrawState, as_array, make_state
-from ._inputs import QuadsLike, as_quads
+from ._inputs import QuadsLike, as_quads, whole
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -60,7 +60,7 @@ class Machine:
 
     def run(self, most_clocks: int = 2**62) -> int:
         """Clocks without gap or stall until idle, or so many; how many it were."""
-        return self._machine.run(most_clocks)
+        return self._machine.run(whole("most_clocks", most_clocks, 0, 2**64 - 1))
 
     def take(self) -> npt.NDArray[np.void]:
         """Fragments accepted since the last call, in the machine's order; fields as of `draw()`."""

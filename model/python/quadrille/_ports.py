@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -47,5 +48,5 @@ def fragments_of_words(
     """
     config = config or Config()
     digits = (_core.fragment_bits(config) + 3) // 4
-    texts = [f"{word:0{digits}x}" if isinstance(word, int) else word for word in words]
+    texts = [word if isinstance(word, str) else f"{operator.index(word):0{digits}x}" for word in words]
     return as_array(_core.fragments_of_words(texts, config, depth, list(names)))

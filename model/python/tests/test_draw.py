@@ -180,6 +180,30 @@ def test_forms_of_quads():
         ),
         (lambda: quadrille.draw(SQUARE, POSITION, names=["u"]), ValueError, "names: 1 of 2 attributes"),
         (lambda: quadrille.draw(SQUARE, threads=0), ValueError, "threads: 0; "),
+        (lambda: quadrille.draw(SQUARE, size=(10**10, 64)), ValueError, "size: 10000000000; "),
+        (
+            lambda: quadrille.Config(significand_bits=10**30),
+            quadrille.ConfigError,
+            f"configuration key 'significand_bits' = {10**30} is outside 8..26",
+        ),
+        (lambda: quadrille.method("", SQUARE), ValueError, "method '': the name is missing"),
+        (
+            lambda: quadrille.method("mvc", SQUARE * np.nan),
+            quadrille.SnapError,
+            "quad 0, vertex 0: (nan, nan, nan, nan): a coordinate is NaN or infinite",
+        ),
+        (lambda: quadrille.error_map(SQUARE * np.nan), quadrille.SnapError, "a coordinate is NaN or infinite"),
+        (lambda: quadrille.stress("general", -1), ValueError, "count: -1; "),
+        (lambda: quadrille.stress("general", 3, seed=-1), ValueError, "seed: -1; "),
+        (lambda: quadrille.stress("general", 3, attributes=-1), ValueError, "attributes: -1; "),
+        (lambda: quadrille.stress("general", 3, attributes=5), ValueError, "stress: 5 attributes (0 to 4)"),
+        (lambda: quadrille.corner("flat", attributes=-1), ValueError, "attributes: -1; "),
+        (lambda: quadrille.corner("flat", attributes=9), ValueError, "corner group: 9 attributes (0 to 8)"),
+        (
+            lambda: quadrille.picture(quadrille.draw(SQUARE, size=(64, 64)), "depth", (20, 20)),
+            ValueError,
+            "size: 20x20; there is a fragment in column 29 and one in row 19",
+        ),
         (lambda: quadrille.as_quads(SQUARE, ids=[-1]), ValueError, "ids: (1,) whole numbers"),
         (lambda: quadrille.scene("spher"), ValueError, "sphere"),
         (
@@ -216,6 +240,56 @@ def test_errors(call, error, words):
     with pytest.raises(error) as raised:
         call()
     assert isinstance(raised.value, ValueError) and words in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda: quadrille.draw(SQUARE, size=64), "size: 64; width, height are expected"),
+        (lambda: quadrille.draw(SQUARE, size=(64,)), "size: (64,); width, height are expected"),
+        (lambda: quadrille.draw(SQUARE, size=(64.5, 64)), "size: 64.5; a whole number is expected"),
+        (lambda: quadrille.scene("sphere", "64"), "size: '64'; width, height are expected"),
+        (lambda: quadrille.draw(SQUARE, scissor=(0, 0, 9)), "scissor: (0, 0, 9); x0, y0, x1, y1 are expected"),
+        (lambda: quadrille.draw(SQUARE, cull=None), "cull: None; none, front or back is expected"),
+        (lambda: quadrille.draw(SQUARE, threads=1.5), "threads: 1.5; a whole number, or None for all processors,"),
+        (lambda: quadrille.draw(SQUARE, zner=0.5), 'unknown keyword "zner"; did you mean "znear"?'),
+        (lambda: quadrille.draw(SQUARE, POSITION, names=[1, 2]), "names: [1, 2]; a text for each attribute"),
+        (lambda: quadrille.explain(SQUARE, (3.5, 4)), "pixel: 3.5; a whole number is expected"),
+        (lambda: quadrille.explain(SQUARE, 3), "pixel: 3; x, y are expected"),
+        (
+            lambda: quadrille.project(quadrille.Mesh.parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"), up="z"),
+            "up: 'z'; three numbers x, y, z are expected",
+        ),
+    ],
+)
+def test_wrong_types_are_named(call, words):
+    with pytest.raises(TypeError) as raised:
+        call()
+    assert words in str(raised.value)
+
+
+def test_other_attributes_keep_what_the_quads_were_made_for():
+    sprites = quadrille.scene("sprites", (64, 64))
+    again = quadrille.as_quads(sprites, sprites.attributes + 1, names=["s", "t"])
+    assert again.size == (64, 64) and not again.perspective and again.names == ["s", "t"]
+    assert np.array_equal(again.corners, sprites.corners) and np.array_equal(again.attributes, sprites.attributes + 1)
+    assert repr(again) == f"<{len(again)} quads of sprites, 2 attributes of s, t>"
+    # What is asked for counts more.
+    mesh = quadrille.scene("closed_mesh", (64, 64))
+    assert mesh.cull == "back" and len(quadrille.draw(mesh, cull="none")) > len(quadrille.draw(mesh))
+    quads = quadrille.stress("perspective", 20, size=(64, 64))
+    assert quads.perspective and len(quadrille.draw(quads, skip="tiles")) == len(quadrille.draw(quads, skip=["tiles"]))
+
+
+def test_positions():
+    quads = quadrille.scene("sphere", (64, 64))
+    drawn = quadrille.draw(quads)
+    assert quadrille.pick(quads, drawn["quad"][0]).ids.tolist() == [drawn["quad"][0]]
+    assert quadrille.pick(quads, np.arange(len(quads)) % 2 == 1).ids.tolist() == list(range(1, len(quads), 2))
+    assert len(quadrille.pick(quads, [])) == 0
+    for call in (lambda: quads.pick([len(quads)]), lambda: quadrille.pick(quads, len(quads))):
+        with pytest.raises(IndexError):
+            call()
 
 
 def test_configuration():
@@ -287,12 +361,20 @@ def test_lock_is_released():
     assert len(ticks) > 10 and gaps.max() < 0.5 * (time.perf_counter() - start)
 
 
-def test_interrupt_ends_a_draw():
+@pytest.mark.parametrize(
+    "call",
+    [
+        "truth(quads, threads=1)",
+        "error_map(quads, threads=2)",
+        "sweep(quads, {'significand_bits': [12, 13]}, threads=1)",
+    ],
+)
+def test_interrupt_ends_what_takes_long(call):
     program = (
         "import quadrille, signal, threading, os\n"
         "quads = quadrille.stress('general', 20000, size=(512, 512))\n"
         "threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
-        "quadrille.truth(quads, threads=1)\n"
+        f"quadrille.{call}\n"
     )
     start = time.perf_counter()
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)

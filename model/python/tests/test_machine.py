@@ -64,3 +64,7 @@ def test_reset_flush_and_errors():
         machine.push(np.zeros((1, 4, 4)), np.zeros((1, 4, 2)))
     with pytest.raises(quadrille.DrawStateError, match="attributes"):
         quadrille.Machine(names=list("abcde"))
+    with pytest.raises(ValueError, match="most_clocks: -1; "):
+        machine.run(-1)
+    with pytest.raises(ValueError, match='attribute name "u" is empty or taken'):
+        quadrille.Machine(names=["u", "u"])

@@ -53,6 +53,20 @@ def test_vertices(keys):
         assert int(word, 16) == packed(fields), i
 
 
+def test_words_that_are_none():
+    digits = (quadrille._core.fragment_bits(quadrille.Config()) + 3) // 4
+    of_digits, of_number = (quadrille.fragments_of_words([word]) for word in (f"{5:0{digits}x}", np.int64(5)))
+    assert np.array_equal(of_digits, of_number)
+    for words, names, error, text in (
+        (["zz"], [], ValueError, "fragment 0: has 2 characters"),
+        ([1.5], [], TypeError, "float"),
+        ([0], ["x"], ValueError, 'attribute name "x" is empty or taken'),
+        ([0], list("abcde"), ValueError, "5 names; a fragment has attribute_slots = 4 attributes"),
+    ):
+        with pytest.raises(error, match=text):
+            quadrille.fragments_of_words(words, names=names)
+
+
 def test_fragments_and_state():
     quads = quadrille.scene("bowtie", (64, 64))
     drawn = quadrille.draw(quads)

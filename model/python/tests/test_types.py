@@ -41,6 +41,11 @@ def test_package_and_its_use(tmp_path):
     assert [int(line.split(":")[1]) for line in faults] == list(range(first, first + len(BAD))), result.stdout
 
 
+def test_the_package_itself(tmp_path):
+    result = mypy("--cache-dir", str(tmp_path), "-p", "quadrille")
+    assert result.returncode == 0, result.stdout
+
+
 def test_stub_and_docstrings_are_there():
     package = pathlib.Path(quadrille.__file__).parent
     assert (package / "py.typed").exists()
