@@ -20,19 +20,21 @@
 #include "model/fast/cut_sums.hpp"
 
 struct Arithmetic {
-  F cut_mask;
+  F cut_mask, size_mask;  ///< the second one without the sign
   F lowest, highest;  ///< a table's result with its guard bits
   I fraction_mask;    ///< of what `cut` leaves of a fraction
   Real half_place;    ///< of what `cut` leaves, as an integer of the fraction's bits
 
   explicit Arithmetic(int s)
       : cut_mask(real(splat(-(Code{1} << (fraction_bits + 1 - s))))),
+        size_mask(magnitude(cut_mask)),
         lowest(splat(static_cast<Real>(Code{1} << (s - 1 + Config::table_guard)))),
         highest(splat(static_cast<Real>((Code{1} << (s + Config::table_guard)) - 1))),
         fraction_mask(splat((Code{1} << fraction_bits) - (Code{1} << (fraction_bits + 1 - s)))),
         half_place(static_cast<Real>(Code{1} << (fraction_bits - s))) {}
 
   F cut(F v) const { return keep(v, cut_mask); }
+  F cut_size(F v) const { return keep(v, size_mask); }
   F multiply(F a, F b) const { return cut(a * b); }
   /// 2^floor(log2 v), 0 of 0.
   static F power(F v) { return keep(v, real(splat(exponent_code))); }
@@ -47,6 +49,7 @@ struct Arithmetic {
     const F last_place = splat(table.last_place), integer = splat(Table::integer);
     const Real step = table.last_place / Table::integer, below_half = Real{0.5} - step * half_place;
     const F half_step = splat(step * below_half), half = splat(below_half);
+    LANE_UNROLL
     for (std::size_t i = 0; i < n; ++i) {
       if constexpr (!in_columns) c[i] = look_up(table, a[i]);
       const F dx = converted(bits(a[i]) & rest);
@@ -98,8 +101,8 @@ inline void put_mask(std::uint8_t* bytes, std::size_t at, unsigned mask) {
 
 /// The whole list; the unit rounds as it must. `in_columns`: of both tables. `areas`: LaneQuad::areas.
 template <bool in_columns, bool areas>
-__attribute__((noinline)) void draw_list(const Format& format, const Quad& quad, const PixelList& list, int count,
-                                         LaneResults& out) {
+__attribute__((noinline)) void draw_list(const Format& __restrict format, const Quad& quad, const PixelList& list,
+                                         int count, LaneResults& out) {
   const Arithmetic arithmetic(format.s);
   const F zero = splat(Real{0}), one = splat(Real{1});
   const F align = splat(static_cast<Real>(Code{1} << (fraction_bits - format.prec)));
@@ -156,10 +159,11 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
       F r[4], r_power[4];
       sqrt_lanes<in_columns>(r2, format.sqrt, arithmetic, r, r_power);
       F u[6];
+      LANE_UNROLL
       for (std::size_t k = 0; k < 6; ++k) {
         const auto [i, j] = vertex_pair[k];
-        const F c = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k])) * align;
-        u[k] = arithmetic.cut(cut_sum(r[i], r[j], d[k], c));
+        const F largest = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k]));
+        u[k] = arithmetic.cut(cut_sum(r[i], r[j], d[k], largest * align));
       }
 
       // root_ratio.hpp; a term of an edge cancels where D < 0, of a diagonal where D >= 0.

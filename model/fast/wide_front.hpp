@@ -86,7 +86,7 @@ struct FrontOf {
       }
     for (std::size_t k = 0; k < 6; ++k) {
       sign_d[k] = greater(zero, dot[k]);
-      d[k] = arithmetic.cut(magnitude(dot[k]));
+      d[k] = arithmetic.cut_size(dot[k]);
     }
   }
 
@@ -127,7 +127,7 @@ struct FrontOf {
       for (std::size_t k = 0; k < functions; ++k) {
         const F a = linear(quad.linear_forms[k]);
         sign_a[k] = greater(splat(0.0), a);
-        v[k] = arithmetic.cut(magnitude(a)) * scale;
+        v[k] = arithmetic.cut_size(a) * scale;
       }
       return;
     }

@@ -85,7 +85,10 @@ inline Coefficients look_up(const LaneTableOf<double>& table, F a) {
   using Entry = LaneTableOf<double>::Entry;
   const auto& p0 = *reinterpret_cast<const Entry*>(entries + static_cast<std::size_t>(offset[lane[0]]));
   const auto& p1 = *reinterpret_cast<const Entry*>(entries + static_cast<std::size_t>(offset[lane[1]]));
-  return {F{p0.c0, p1.c0}, F{p0.c1, p1.c1}, F{p0.c2, p1.c2}};
+  F first, second;
+  std::memcpy(&first, &p0, sizeof first);
+  std::memcpy(&second, &p1, sizeof second);
+  return {__builtin_shufflevector(first, second, 0, 2), __builtin_shufflevector(first, second, 1, 3), F{p0.c2, p1.c2}};
 }
 
 /// Lanes one after the other, of numbers below 2^32.
