@@ -150,6 +150,8 @@ function show_state() {
   const scene = [...lists.scenes, ...lists.workloads].find((s) => s.name === state.values.get("scene"));
   set_text(element("title"), scene ? `${scene.title} (${scene.paper})` : "");
   element<HTMLSelectElement>("scene").value = scene?.name ?? "";
+  for (const button of document.querySelectorAll<HTMLElement>("#presets button"))
+    button.ariaPressed = String(button.dataset.scene === scene?.name);
   const config = new Map(config_of(state));
   const named = named_configurations.find(
     ([, keys]) => Object.keys(keys).length === config.size && Object.entries(keys).every(([k, v]) => config.get(k) === String(v)),
@@ -249,7 +251,8 @@ function listen() {
   };
   on_change("scene", (select) => choose_scene(select.value));
   fill_presets(element("presets"), choose_scene);
-  for (const key of ["shade", "texture", "cull"]) on_change(key, (select) => change([key, select.value]));
+  for (const key of ["shade", "cull"]) on_change(key, (select) => change([key, select.value]));
+  on_change("texture", (select) => change(["texture", select.value], ["shade", "texture"]));  // it is to be seen
   on_change("view", (select) => change(["view", select.value]));
   element("pixel_form").addEventListener("submit", (event) => event.preventDefault());
   element("pixel_form").addEventListener("change", () => {

@@ -125,9 +125,18 @@ test("a figure of each kind is one click away", async () => {
     await page.click(`#presets [data-scene=${scene}]`);
     assert.equal((await values()).get("preset"), scene);
     assert.equal(await page.inputValue("#scene"), scene);
+    assert.deepEqual(await page.$$eval("#presets [aria-pressed=true]", (all) => all.map((b) => b.dataset.scene)), [scene]);
     seen.add(await picture());
   }
   assert.equal(seen.size, scenes.length);  // the first one was there before
+});
+
+test("a texture that is chosen is seen", async () => {
+  await page.click("#presets [data-scene=phong_mesh]");
+  const before = await picture();
+  await page.selectOption("#texture", "grid");
+  assert.notEqual(await picture(), before);
+  assert.equal(await page.inputValue("#shade"), "texture");
 });
 
 test("nothing stands beside the machine's picture, and something again", async () => {
