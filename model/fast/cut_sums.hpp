@@ -26,8 +26,7 @@ inline F cut_sum(F a, F b, F d, F c) {
   const Places places(c);
   F sum = splat(Real{0});
   if (column.mixed)  // cut toward zero, whatever the sign
-    for (std::size_t i = first; i < 4; ++i)
-      sum = sum + places.of(m[i], splat(column.positive[i] - column.negative[i]));
+    for (std::size_t i = first; i < 4; ++i) sum = sum + places.of(m[i], splat(column.positive[i] - column.negative[i]));
   else
     for (std::size_t i = first; i < 4; ++i) sum = sum + places.of(m[i], splat(column.positive[i]));
   return places.size(sum);

@@ -69,8 +69,10 @@ bool to_forms(WideQuad& quad) {
   double most = 0;
   const auto form = [&](std::int64_t value, std::int64_t gx, std::int64_t gy, std::int64_t q) {
     any_bits |= static_cast<std::uint64_t>(value | gx | gy | q);
-    const WideQuad::Form out{static_cast<double>(value), static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(q)};
-    most = std::max(most, std::fabs(out.value) + std::fabs(out.gx) * x + std::fabs(out.gy) * y + std::fabs(out.q) * (x * x + y * y));
+    const WideQuad::Form out{static_cast<double>(value), static_cast<double>(gx), static_cast<double>(gy),
+                             static_cast<double>(q)};
+    most = std::max(most, std::fabs(out.value) + std::fabs(out.gx) * x + std::fabs(out.gy) * y +
+                              std::fabs(out.q) * (x * x + y * y));
     return out;
   };
   for (std::size_t k = 0; k < linear_count; ++k) {

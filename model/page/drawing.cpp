@@ -221,8 +221,8 @@ Picture picture_of_passes(const Drawing& drawing, int attributes, Values values)
 /// One quad hides nothing of itself: where its depths are all seen, as those of its corners are, nobody asks for them.
 bool needs_depth(const Drawing& drawing) {
   const auto seen = [](const WindowVertex& v) { return v.w > 0 && v.z > 0.001 * v.w && v.z < 0.999 * v.w; };
-  return drawing.quads.size() != 1 || drawing.shade == "depth" || drawing.state.znear != 0 ||
-         drawing.state.zfar != 1 || !std::ranges::all_of(drawing.quads.front().vertex, seen);
+  return drawing.quads.size() != 1 || drawing.shade == "depth" || drawing.state.znear != 0 || drawing.state.zfar != 1 ||
+         !std::ranges::all_of(drawing.quads.front().vertex, seen);
 }
 
 }  // namespace

@@ -339,7 +339,8 @@ test("dragging draws as many pictures as the processor allows", async () => {
     `${(frames / taken).toFixed(1)} a second of a processor, ${((frames / taken) * unit).toFixed(2)} a unit of it`);
   await watched.close();
   assert.ok(frames >= 10 && taken > 0.1);
-  assert.ok((frames / taken) * unit >= 4.4);  // half of the least that was measured: 8.8, at 27 a second of a shared processor
+  // Two thirds of what was measured: 13.6, at 41 a second of a shared processor. A fast path that is lost is seen.
+  assert.ok((frames / taken) * unit >= 9);
 });
 
 test("the page is small and soon there", async () => {
