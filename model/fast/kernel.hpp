@@ -11,9 +11,8 @@
 //    quanta, and C is 2^(P - 1) of them: with PREC_BITS <= P - 5 the sum stays below 2 C. The product may be rounded
 //    before, toward zero to finer places, or not, fused. Taking C away is exact.
 //  - Terms of either sign have a sum each, for truncation is of magnitudes; the difference of the two is exact.
-//  - Tables: products of integers, floor by adding 2^(P - 1) (Table::integer); everything else there is an integer
-//  below 2^P, or such
-//    times a power of two: dx is taken as the integer that the fraction's last bits are.
+//  - Tables: products of integers, floor by adding Table::integer; everything else there is an integer below 2^P, or
+//    such times a power of two: dx is taken as the integer that the fraction's last bits are.
 //  - Numbers scale: D, A and r² of a quad times one power of 4 give M times a power of two, and quotients that are the
 //    same. So root_ratio's `balanced` is left out.
 //  - Areas for weights are |A|, cut, as they are.

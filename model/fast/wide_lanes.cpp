@@ -78,7 +78,9 @@ bool to_forms(WideQuad& quad) {
   for (std::size_t k = 0; k < linear_count; ++k) {
     const LinearForm& f = quad.linear[k];
     quad.linear_forms[k] = form(f.value, f.gx, f.gy, 0);
-    quad.length2_values[k] = form(static_cast<std::int64_t>(quad.length2[k]), 0, 0, 0).value;
+    any_bits |= quad.length2[k];
+    quad.length2_values[k] = static_cast<double>(quad.length2[k]);
+    most = std::max(most, quad.length2_values[k]);
   }
   for (std::size_t k = quad.homogeneous ? 0 : linear_count; k < quadratic_count; ++k) {
     const QuadraticForm& f = quad.quadratic[k];
