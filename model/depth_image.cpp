@@ -17,18 +17,16 @@ DepthImage<Real>::DepthImage(int width, int height, int attributes, const Config
       attribute_unit_(std::ldexp(Real{1}, -config.attribute_frac())),
       planes_(1 + static_cast<std::size_t>(attributes)) {
   if (planes_.size() > most_planes) throw std::invalid_argument("DepthImage: more than 8 attributes");
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  for (std::vector<Real>& plane : planes_) plane.resize(pixels);
-  if (ids) quads_.resize(pixels);
+  if (ids) quads_.emplace_back();
   clear();
 }
 
 template <class Real>
 void DepthImage<Real>::clear() {
   for (Block& block : blocks_) block.size = 0;
-  for (std::vector<Real>& plane : planes_)
-    std::fill(plane.begin(), plane.end(), static_cast<Real>(&plane == &planes_.front()));
-  std::fill(quads_.begin(), quads_.end(), no_quad);
+  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  for (std::vector<Real>& plane : planes_) plane.assign(pixels, static_cast<Real>(&plane == &planes_.front()));
+  if (!quads_.empty()) quads_.assign(pixels, no_quad);
 }
 
 template <class Real>

@@ -77,6 +77,4 @@ Vec3 cut_colour(const Vec3& flat, double height, double steepness) {
   return {flat[0] + (line - flat[0]) * cover, flat[1] + (line - flat[1]) * cover, flat[2] + (line - flat[2]) * cover};
 }
 
-std::uint8_t to_byte(double channel) { return static_cast<std::uint8_t>(255 * std::clamp(channel, 0.0, 1.0) + 0.5); }
-
 }  // namespace quadrille::golden

@@ -3,6 +3,7 @@
 
 #include "golden/scenes/mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -35,6 +36,8 @@ Vec3 id_colour(std::uint32_t id);
 Vec3 cut_colour(const Vec3& flat, double height, double steepness);
 
 /// A channel in 8 bits.
-std::uint8_t to_byte(double channel);
+inline std::uint8_t to_byte(double channel) {
+  return static_cast<std::uint8_t>(255 * std::clamp(channel, 0.0, 1.0) + 0.5);
+}
 
 }  // namespace quadrille::golden

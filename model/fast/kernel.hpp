@@ -11,24 +11,30 @@
 //    quanta, and C is 2^(P - 1) of them: with PREC_BITS <= P - 5 the sum stays below 2 C. The product may be rounded
 //    before, toward zero to finer places, or not, fused. Taking C away is exact.
 //  - Terms of either sign have a sum each, for truncation is of magnitudes; the difference of the two is exact.
-//  - Tables: products of integers, floor by adding 2^(P - 1); everything else there is an integer below 2^P, or such
-//    times a power of two: dx is taken as the integer that the fraction's last bits are.
+//  - Tables: products of integers, floor by adding Table::integer; everything else there is an integer below 2^P, or
+//    such times a power of two: dx is taken as the integer that the fraction's last bits are.
 //  - Numbers scale: D, A and r² of a quad times one power of 4 give M times a power of two, and quotients that are the
 //    same. So root_ratio's `balanced` is left out.
 //  - Areas for weights are |A|, cut, as they are.
 
+#include "model/fast/cut_sums.hpp"
+
 struct Arithmetic {
-  F cut_mask;
-  F lowest, highest;  ///< a table's result with its guard bits
-  I fraction_mask;    ///< of what `cut` leaves of a fraction
+  F cut_mask, size_mask;  ///< the second one without the sign
+  F lowest, highest;      ///< a table's result with its guard bits
+  I fraction_mask;        ///< of what `cut` leaves of a fraction
+  Real half_place;        ///< of what `cut` leaves, as an integer of the fraction's bits
 
   explicit Arithmetic(int s)
       : cut_mask(real(splat(-(Code{1} << (fraction_bits + 1 - s))))),
+        size_mask(magnitude(cut_mask)),
         lowest(splat(static_cast<Real>(Code{1} << (s - 1 + Config::table_guard)))),
         highest(splat(static_cast<Real>((Code{1} << (s + Config::table_guard)) - 1))),
-        fraction_mask(splat((Code{1} << fraction_bits) - (Code{1} << (fraction_bits + 1 - s)))) {}
+        fraction_mask(splat((Code{1} << fraction_bits) - (Code{1} << (fraction_bits + 1 - s)))),
+        half_place(static_cast<Real>(Code{1} << (fraction_bits - s))) {}
 
   F cut(F v) const { return keep(v, cut_mask); }
+  F cut_size(F v) const { return keep(v, size_mask); }
   F multiply(F a, F b) const { return cut(a * b); }
   /// 2^floor(log2 v), 0 of 0.
   static F power(F v) { return keep(v, real(splat(exponent_code))); }
@@ -40,12 +46,15 @@ struct Arithmetic {
     Coefficients c[n];
     if constexpr (in_columns) look_up_columns(table, a, c);
     const I rest = splat((Code{1} << table.rest_bits) - 1);
-    const F last_place = splat(table.last_place), integer = splat(static_cast<Real>(Code{1} << fraction_bits));
+    const F last_place = splat(table.last_place), integer = splat(Table::integer);
+    const Real step = table.last_place / Table::integer, below_half = Real{0.5} - step * half_place;
+    const F half_step = splat(step * below_half), half = splat(below_half);
+    LANE_UNROLL
     for (std::size_t i = 0; i < n; ++i) {
       if constexpr (!in_columns) c[i] = look_up(table, a[i]);
       const F dx = converted(bits(a[i]) & rest);
-      const F t1 = c[i].c1 - fma(c[i].c2, dx, last_place);
-      const F y = rising ? fma(t1, dx, c[i].c0) - integer : c[i].c0 - fma(t1, dx, integer);
+      const F t1 = c[i].c1 - cut_fma(c[i].c2, dx, last_place, half_step);
+      const F y = rising ? cut_fma(t1, dx, c[i].c0, half) - integer : c[i].c0 - cut_fma(t1, dx, integer, half);
       out[i] = real((bits(least(greatest(y, lowest), highest)) & fraction_mask) | exponent[i]);
     }
   }
@@ -92,8 +101,8 @@ inline void put_mask(std::uint8_t* bytes, std::size_t at, unsigned mask) {
 
 /// The whole list; the unit rounds as it must. `in_columns`: of both tables. `areas`: LaneQuad::areas.
 template <bool in_columns, bool areas>
-__attribute__((noinline)) void draw_list(const Format& format, const Quad& quad, const PixelList& list, int count,
-                                         LaneResults& out) {
+__attribute__((noinline)) void draw_list(const Format& __restrict format, const Quad& quad, const PixelList& list,
+                                         int count, LaneResults& out) {
   const Arithmetic arithmetic(format.s);
   const F zero = splat(Real{0}), one = splat(Real{1});
   const F align = splat(static_cast<Real>(Code{1} << (fraction_bits - format.prec)));
@@ -150,10 +159,11 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
       F r[4], r_power[4];
       sqrt_lanes<in_columns>(r2, format.sqrt, arithmetic, r, r_power);
       F u[6];
+      LANE_UNROLL
       for (std::size_t k = 0; k < 6; ++k) {
         const auto [i, j] = vertex_pair[k];
-        const F c = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k])) * align;
-        u[k] = arithmetic.cut(add(fma(r[i], r[j], c), d[k]) - c);
+        const F largest = greatest(r_power[i] * r_power[j], Arithmetic::power(d[k]));
+        u[k] = arithmetic.cut(cut_sum(r[i], r[j], d[k], largest * align));
       }
 
       // root_ratio.hpp; a term of an edge cancels where D < 0, of a diagonal where D >= 0.
@@ -186,12 +196,7 @@ __attribute__((noinline)) void draw_list(const Format& format, const Quad& quad,
     const auto sum_from = [&](std::size_t first, const Column& column) LANE_LAMBDA {
       F c = greatest(power[2] * splat(column.align[2]), power[3] * splat(column.align[3]));
       for (std::size_t i = first; i < 2; ++i) c = greatest(power[i] * splat(column.align[i]), c);
-      F positive = c;
-      for (std::size_t i = first; i < 4; ++i) positive = fma(m[i], splat(column.positive[i]), positive);
-      F negative = c;
-      if (column.mixed)
-        for (std::size_t i = first; i < 4; ++i) negative = fma(m[i], splat(column.negative[i]), negative);
-      return arithmetic.cut(positive - negative);
+      return arithmetic.cut(cut_sum(m, first, column, c));
     };
     const auto sum = [&](const Column& column) LANE_LAMBDA { return sum_from(0, column); };
     const auto flipped = [](F value, const Column& column) { return real(bits(value) ^ splat(column.flip)); };

@@ -52,12 +52,11 @@ QuadLanes::QuadLanes(const QuadData& quad, const PipelineContext& c) {
 template <class Real>
 LaneTableOf<Real>::LaneTableOf(const Table& table, int octave_bits)
     : rest_bits(fraction_bits - table.segments_log2),
-      last_place(static_cast<Real>(power_of_two(fraction_bits - rest_bits))),
+      last_place(integer * static_cast<Real>(power_of_two(-rest_bits))),
       offset_mask(((1u << (table.segments_log2 + octave_bits)) - 1) * static_cast<std::uint32_t>(sizeof(Entry))),
       in_columns(table.entries.size() <= column_size) {
   const std::size_t size = table.entries.size(), octave = octave_bits == 0 ? 0 : size / 2;
   const auto scale = static_cast<Real>(power_of_two(-rest_bits));
-  const auto integer = static_cast<Real>(std::int64_t{1} << fraction_bits);
   for (std::size_t i = 0; i < size; ++i) {
     const TableEntry& e = table.entries[i ^ octave];
     entries.push_back({static_cast<Real>(e.c0) + integer, (static_cast<Real>(e.c1) + integer) * scale,

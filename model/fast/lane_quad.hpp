@@ -17,7 +17,7 @@ namespace quadrille {
 
 double to_double(const PipelineFloat& v, int s);
 
-/// A table for vectors of `Real`, P = 24 or 53 bits. A place is {C0 + 2^(P - 1), (C1 + 2^(P - 1)) 2^-rest_bits,
+/// A table for vectors of `Real`, P = 24 or 53 bits. A place is {C0 + integer, (C1 + integer) 2^-rest_bits,
 /// C2 4^-rest_bits, 0}; its index is what the argument's bits [rest_bits +: index_bits] say: of the root also the
 /// lowest bit of the exponent's code, so its octaves lie the other way round.
 template <class Real>
@@ -27,8 +27,14 @@ struct LaneTableOf {
   };
   static constexpr std::size_t column_size = 64;
   static constexpr int fraction_bits = sizeof(Real) == 4 ? 23 : 52;
+  /// Sums with it end at integers.
+#ifdef __wasm__
+  static constexpr Real integer = Real(std::int64_t{3} << (fraction_bits - 1));  ///< those a little below it too
+#else
+  static constexpr Real integer = Real(std::int64_t{1} << fraction_bits);
+#endif
   int rest_bits = 0;              ///< of a number's fraction, below the index
-  Real last_place = 0;            ///< 2^(P - 1 - rest_bits): what has its last place at 2^-rest_bits
+  Real last_place = 0;            ///< integer 2^-rest_bits: what has its last place at 2^-rest_bits
   std::uint32_t offset_mask = 0;  ///< of the index times a place's bytes
   std::vector<Entry> entries;
   bool in_columns = false;  ///< at most column_size places: they are in the columns too, over and over until those end

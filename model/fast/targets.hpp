@@ -22,4 +22,11 @@
 #endif
 #endif
 
+/// Before a loop over few registers, which stay in memory otherwise; GCC sees that by itself.
+#ifdef __clang__
+#define LANE_UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define LANE_UNROLL
+#endif
+
 #define LANE_LAMBDA __attribute__((always_inline))

@@ -32,12 +32,11 @@ inline unsigned out_of_range(F, F, const WideQuad&) { return 0; }
 /// unit cuts what is below 53 bits, fraction. What has no integer part of 52 bits is beyond every limit.
 [[gnu::always_inline]] inline C to_codes(F num, F rec, F per_unit, const LaneCodes<double>& to, Mask& clamped) {
   const I sign = (bits(num) ^ bits(rec)) & splat(INT64_MIN);
-  const F half = real(sign | bits(splat(0.5))), most = splat(0x1p51);
 #ifdef __wasm__
-  // No sum that is cut: the product is exact, and so is what its integer leaves of it.
-  const F quotient = least(greatest(num * per_unit * rec, splat(-0x1p51)), most), integer = toward_zero(quotient);
-  const F rounded = integer + select(at_least(magnitude(quotient - integer), splat(0.5)), half + half, splat(0.0));
+  // With the number before a half: of what is less than a half the nearest sum is below 1, of a half it is 1.
+  const F rounded = toward_zero(num * per_unit * rec + real(sign | bits(splat(0x1.fffffffffffffp-2))));
 #else
+  const F half = real(sign | bits(splat(0.5))), most = splat(0x1p51);
   const F rounded = toward_zero(least(greatest(fma(num * per_unit, rec, half), splat(-0x1p51)), most));
 #endif
   const F sum = rounded + splat(to.base), low = splat(to.low), high = splat(to.high);
@@ -53,9 +52,43 @@ struct FrontOf {
   const WideQuad& quad;
   const Arithmetic& arithmetic;
   I dx, dy;
+  F x, y;  ///< the same
 
   FrontOf(const WideQuad& q, const Arithmetic& a, I place)
-      : quad(q), arithmetic(a), dx(place & splat(Code{0xffff})), dy(shift_right<16>(place)) {}
+      : quad(q),
+        arithmetic(a),
+        dx(place & splat(Code{0xffff})),
+        dy(shift_right<16>(place)),
+        x(converted(dx)),
+        y(converted(dy)) {}
+
+  [[gnu::always_inline]] inline F linear(const WideQuad::Form& f) const {
+    return splat(f.value) + x * splat(f.gx) + y * splat(f.gy);
+  }
+  /// WideQuad::in_doubles: every number here is exact.
+  [[gnu::always_inline]] inline void exact_distances(Mask (&sign_d)[6], F (&d)[6], F (&r2)[4]) const {
+    const F zero = splat(0.0), square = x * x + y * y;
+    F squares[4];
+    const auto quadratic_form = [&](std::size_t k) LANE_LAMBDA {
+      return linear(quad.quadratic_forms[k]) + square * splat(quad.quadratic_forms[k].q);
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+      squares[i] = quadratic_form(linear_count + i);
+      r2[i] = arithmetic.cut(greatest(squares[i], zero));
+    }
+    F dot[6];
+    if (quad.homogeneous)
+      for (std::size_t k = 0; k < 6; ++k) dot[k] = quadratic_form(k);
+    else  // the law of cosines
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto [i, j] = vertex_pair[k];
+        dot[k] = (squares[i] + squares[j] - splat(quad.length2_values[k])) * splat(0.5);
+      }
+    for (std::size_t k = 0; k < 6; ++k) {
+      sign_d[k] = greater(zero, dot[k]);
+      d[k] = arithmetic.cut_size(dot[k]);
+    }
+  }
 
   [[gnu::always_inline]] inline I quadratic(std::size_t k, I square) const {
     const QuadraticForm& f = quad.quadratic[k];
@@ -63,6 +96,7 @@ struct FrontOf {
   }
 
   [[gnu::always_inline]] inline void distances(Mask (&sign_d)[6], F (&d)[6], F (&r2)[4]) const {
+    if (quad.in_doubles) return exact_distances(sign_d, d, r2);
     const I square = add(multiply_words(dx, dx), multiply_words(dy, dy));
     I squares[4];
     for (std::size_t i = 0; i < 4; ++i) {
@@ -89,6 +123,14 @@ struct FrontOf {
   template <std::size_t functions>
   [[gnu::always_inline]] inline void edges(Mask (&sign_a)[6], F (&v)[6]) const {
     const F scale = splat(quad.a_scale);
+    if (quad.in_doubles) {
+      for (std::size_t k = 0; k < functions; ++k) {
+        const F a = linear(quad.linear_forms[k]);
+        sign_a[k] = greater(splat(0.0), a);
+        v[k] = arithmetic.cut_size(a) * scale;
+      }
+      return;
+    }
     for (std::size_t k = 0; k < functions; ++k) {
       const LinearForm& f = quad.linear[k];
       const I a = add(splat(f.value), add(times(dx, f.gx), times(dy, f.gy)));

@@ -4,6 +4,8 @@
 #include "model/fast/toward_zero.hpp"
 #include "model/front/tile_context.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -59,6 +61,36 @@ constexpr decltype(&baseline::draw) draws[]{
 #endif
 };
 
+#ifdef __wasm__
+/// The functions as doubles; false where some sum of parts may have more than 53 bits.
+bool to_forms(WideQuad& quad) {
+  const double x = std::max(quad.right, 0), y = std::max(quad.bottom, 0);
+  std::uint64_t any_bits = 0;
+  double most = 0;
+  const auto form = [&](std::int64_t value, std::int64_t gx, std::int64_t gy, std::int64_t q) {
+    any_bits |= static_cast<std::uint64_t>(value | gx | gy | q);
+    const WideQuad::Form out{static_cast<double>(value), static_cast<double>(gx), static_cast<double>(gy),
+                             static_cast<double>(q)};
+    most = std::max(most, std::fabs(out.value) + std::fabs(out.gx) * x + std::fabs(out.gy) * y +
+                              std::fabs(out.q) * (x * x + y * y));
+    return out;
+  };
+  for (std::size_t k = 0; k < linear_count; ++k) {
+    const LinearForm& f = quad.linear[k];
+    quad.linear_forms[k] = form(f.value, f.gx, f.gy, 0);
+    any_bits |= quad.length2[k];
+    quad.length2_values[k] = static_cast<double>(quad.length2[k]);
+    most = std::max(most, quad.length2_values[k]);
+  }
+  for (std::size_t k = quad.homogeneous ? 0 : linear_count; k < quadratic_count; ++k) {
+    const QuadraticForm& f = quad.quadratic[k];
+    quad.quadratic_forms[k] = form(f.value, f.gx, f.gy, f.q);
+  }
+  // Three of them in the law of cosines.
+  return most < std::ldexp(1.0, std::countr_zero(any_bits | 1ull << 62) + 51);
+}
+#endif
+
 }  // namespace
 
 WideLanes::WideLanes(const PipelineContext& c)
@@ -86,6 +118,9 @@ void WideLanes::take(const SetupResult& setup, const QuadData& data, const QuadL
   out.linear = setup.linear;
   out.length2 = setup.length2;
   out.quadratic = tile_context(QuadConstants(setup), 0, 0, qdrop_);
+#ifdef __wasm__  // else FloatLanes has those that are many
+  out.in_doubles = !by_tile_ && to_forms(out);
+#endif
 
   out.sum_k = values.sum_k;
   out.sum_w = values.sum_w;

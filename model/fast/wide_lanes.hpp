@@ -8,6 +8,11 @@ namespace quadrille {
 
 /// A quad, or a tile of it where bits of D and r² are dropped: what is dropped then depends on the tile.
 struct WideQuad : LaneQuadOf<double> {
+  /// value + gx dx + gy dy + q (dx² + dy²).
+  struct Form {
+    double value = 0, gx = 0, gy = 0, q = 0;
+  };
+
   bool homogeneous = false, hull = false;
   bool w_may_vanish = false;  ///< the sum of W; the depth is then `high`
   std::int32_t marks = 0;     ///< of all its pixels, as in PixelList::marks
@@ -16,6 +21,11 @@ struct WideQuad : LaneQuadOf<double> {
   std::array<LinearForm, linear_count> linear{};
   std::array<QuadraticForm, quadratic_count> quadratic{};
   std::array<std::uint64_t, linear_count> length2{};
+  // The same where doubles hold every part and sum of them.
+  bool in_doubles = false;
+  std::array<Form, linear_count> linear_forms;
+  std::array<Form, quadratic_count> quadratic_forms;
+  std::array<double, linear_count> length2_values{};
 };
 
 class WideLanes {

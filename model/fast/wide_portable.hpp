@@ -12,18 +12,11 @@ inline F splat(double v) { return F{v, v}; }
 inline I splat(std::int64_t v) { return I{v, v}; }
 inline I load(const std::uint32_t* from) { return I{from[0], from[1]}; }
 
-#ifdef __wasm__
-/// WebAssembly rounds to nearest alone: where that went up, the number before is it. Of a >= |b|, so that what the sum
-/// lost is a number itself (Dekker).
-inline F add(F a, F b) {
-  const F sum = a + b, lost = b - (sum - a);
-  return real(add(bits(sum), I(lost < 0.0)));
-}
-/// Of magnitudes below 2^52.
-inline F toward_zero(F v) { return __builtin_elementwise_trunc(v); }
-#else
 inline F add(F a, F b) { return a + b; }
 /// Of magnitudes below 2^52.
+#ifdef __wasm__
+inline F toward_zero(F v) { return __builtin_elementwise_trunc(v); }
+#else
 inline F toward_zero(F v) {
   const I sign = bits(v) & INT64_MIN;
   return real(bits(real(bits(v) & INT64_MAX) + splat(0x1p52) - splat(0x1p52)) | sign);
@@ -69,16 +62,33 @@ inline F converted_any(I v) {
 
 inline Mask greater(F a, F b) { return {a > b}; }
 /// Bit l is lane l.
+#ifdef __wasm__
+inline unsigned lanes(Mask m) { return static_cast<unsigned>(__builtin_wasm_bitmask_i64x2(m.lanes)); }
+inline bool none(Mask m) { return !__builtin_wasm_any_true_v128(m.lanes); }
+#else
 inline unsigned lanes(Mask m) { return static_cast<unsigned>((m.lanes[0] & 1) | (m.lanes[1] & 2)); }
 inline bool none(Mask m) { return (m.lanes[0] | m.lanes[1]) == 0; }
+#endif
 /// `a` says which.
 inline Coefficients look_up(const LaneTableOf<double>& table, F a) {
+#ifdef __wasm__
+  // By no shift of so many places, for which the compiler takes lanes apart: the index is in the upper word, which a
+  // product moves to a bit that is always the same.
+  using W = std::uint32_t __attribute__((vector_size(16)));
+  const W offset = ((W)bits(a) & table.offset_mask << (table.rest_bits - 37)) * (1u << (49 - table.rest_bits)) >> 12;
+  constexpr std::size_t lane[]{1, 3};
+#else
   const I offset = shift_right(bits(a), table.rest_bits - 5) & std::int64_t{table.offset_mask};
+  constexpr std::size_t lane[]{0, 1};
+#endif
   const auto* entries = reinterpret_cast<const std::uint8_t*>(table.entries.data());
   using Entry = LaneTableOf<double>::Entry;
-  const auto& p0 = *reinterpret_cast<const Entry*>(entries + static_cast<std::size_t>(offset[0]));
-  const auto& p1 = *reinterpret_cast<const Entry*>(entries + static_cast<std::size_t>(offset[1]));
-  return {F{p0.c0, p1.c0}, F{p0.c1, p1.c1}, F{p0.c2, p1.c2}};
+  const auto& p0 = *reinterpret_cast<const Entry*>(entries + static_cast<std::size_t>(offset[lane[0]]));
+  const auto& p1 = *reinterpret_cast<const Entry*>(entries + static_cast<std::size_t>(offset[lane[1]]));
+  F first, second;
+  std::memcpy(&first, &p0, sizeof first);
+  std::memcpy(&second, &p1, sizeof second);
+  return {__builtin_shufflevector(first, second, 0, 2), __builtin_shufflevector(first, second, 1, 3), F{p0.c2, p1.c2}};
 }
 
 /// Lanes one after the other, of numbers below 2^32.

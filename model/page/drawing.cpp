@@ -218,11 +218,19 @@ Picture picture_of_passes(const Drawing& drawing, int attributes, Values values)
   return out;
 }
 
+/// One quad hides nothing of itself: where its depths are all seen, as those of its corners are, nobody asks for them.
+bool needs_depth(const Drawing& drawing) {
+  const auto seen = [](const WindowVertex& v) { return v.w > 0 && v.z > 0.001 * v.w && v.z < 0.999 * v.w; };
+  return drawing.quads.size() != 1 || drawing.shade == "depth" || drawing.state.znear != 0 || drawing.state.zfar != 1 ||
+         !std::ranges::all_of(drawing.quads.front().vertex, seen);
+}
+
 }  // namespace
 
 Picture draw_picture(const Drawing& drawing, Values values) {
   const Request& request = drawing.request;
   DrawState state = drawing.state;
+  state.depth = state.depth && needs_depth(drawing);
   state.attributes = values == Values::weights ? 4 : drawing.attributes;
   if (state.attributes > request.config.attribute_slots) return picture_of_passes(drawing, state.attributes, values);
   Picture out{{request.width, request.height, state.attributes, request.config, state.depth, true}, {}, {}};

@@ -119,15 +119,16 @@ export class Sliders {
   }
 }
 
+/** The browser lays out again what is set, though it is the same. */
+export function set_text(of: Element, text: string) {
+  if (of.textContent !== text) of.textContent = text;
+}
+
 export function show_list(list: HTMLElement, rows: [string, string][]) {
-  list.replaceChildren(
-    ...rows.flatMap(([term, text]) => {
-      const dt = document.createElement("dt"), dd = document.createElement("dd");
-      dt.textContent = term;
-      dd.textContent = text;
-      return [dt, dd];
-    }),
-  );
+  const texts = rows.flat();
+  if (list.children.length !== texts.length)
+    list.replaceChildren(...texts.map((_, i) => document.createElement(i % 2 === 0 ? "dt" : "dd")));
+  texts.forEach((text, i) => set_text(list.children[i], text));
 }
 
 const thousands = (n: number) => Math.round(n).toLocaleString("en");

@@ -24,6 +24,11 @@ export function position_at(drawn: Drawn, size: [number, number], vertex: Vertex
   });
 }
 
+/** The browser draws again what is set, though it is the same. */
+function set_attribute(of: Element, name: string, value: string) {
+  if (of.getAttribute(name) !== value) of.setAttribute(name, value);
+}
+
 export interface Changes {
   vertex(index: number, position: number[]): void;
   turn(yaw: number, pitch: number): void;
@@ -76,7 +81,7 @@ export class Drag {
   show(drawn: Drawn, size: [number, number]) {
     this.drawn = drawn;
     this.size = size;
-    this.overlay.setAttribute("viewBox", `0 0 ${size[0]} ${size[1]}`);
+    set_attribute(this.overlay, "viewBox", `0 0 ${size[0]} ${size[1]}`);
     while (this.handles.length > drawn.vertices.length) this.handles.pop()?.remove();
     drawn.vertices.forEach((vertex, index) => {
       const handle = (this.handles[index] ??= this.make_handle(index));
@@ -86,10 +91,10 @@ export class Drag {
       const x = vertex.x / vertex.w, y = vertex.y / vertex.w;
       // Those outside wait at the border.
       const inside = (c: number, limit: number) => Math.min(Math.max(c, 4), limit - 4);
-      handle.setAttribute("transform", `translate(${inside(x, size[0])} ${inside(y, size[1])})`);
+      set_attribute(handle, "transform", `translate(${inside(x, size[0])} ${inside(y, size[1])})`);
       handle.classList.toggle("behind", vertex.w < 0);
       const where = `x ${x.toFixed(2)}, y ${y.toFixed(2)}${vertex.w < 0 ? ", behind the eye" : ""}`;
-      handle.setAttribute("aria-label", `Vertex ${index}: ${where}`);
+      set_attribute(handle, "aria-label", `Vertex ${index}: ${where}`);
     });
   }
 

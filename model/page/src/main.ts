@@ -1,5 +1,5 @@
 // The page: a state, two workers that draw it, and what changes it.
-import { element, fill_options, fill_presets, fill_scenes, named_configurations, show_costs, show_stats, Sliders } from "./controls";
+import { element, fill_options, fill_presets, fill_scenes, named_configurations, set_text, show_costs, show_stats, Sliders } from "./controls";
 import { Drag } from "./drag";
 import { Latest, Model, type Configuration, type Drawn, type Lists } from "./model";
 import { command_line, config_of, config_text, parse_state, request_text, state_text, toml_text, view_text, made_short, without_view, pixel_text, type State } from "./state";
@@ -29,8 +29,10 @@ function size_of(of: State): [number, number] {
 }
 
 export function paint(onto: HTMLCanvasElement, size: [number, number], bytes: ArrayBuffer) {
-  if (onto.width !== size[0] || onto.height !== size[1]) [onto.width, onto.height] = size;
-  onto.style.aspectRatio = `${size[0]} / ${size[1]}`;
+  if (onto.width !== size[0] || onto.height !== size[1]) {
+    [onto.width, onto.height] = size;
+    onto.style.aspectRatio = `${size[0]} / ${size[1]}`;
+  }
   onto.getContext("2d")!.putImageData(new ImageData(new Uint8ClampedArray(bytes), size[0], size[1]), 0, 0);
 }
 
@@ -43,7 +45,10 @@ function show_error(text: string | null) {
 /** So many pictures were drawn. */
 let frames = 0;
 
-function show_drawn(answer: Answer, text: string) {
+/** When numbers about the picture were shown: while it moves nobody reads more of them, and they take time. */
+let told = 0;
+
+function show_drawn(answer: Answer, text: string, last: boolean) {
   if (answer.error) return show_error(answer.error);
   show_error(null);
   drawn = answer.result as unknown as Drawn;
@@ -58,13 +63,15 @@ function show_drawn(answer: Answer, text: string) {
   if (pixel !== null) explain.ask(pixel);
   drag.show(drawn, size);
   ++frames;
+  document.body.dataset.drawn = text;
+  if (!last && performance.now() - told < 250) return;
+  told = performance.now();
   element("rate").textContent = `${answer.time.toFixed(0)} ms, ${drawn.stats.fragments.toLocaleString("en")} fragments`;
   show_stats(element("stats"), drawn);
   element<HTMLSelectElement>("shade").value = drawn.shade;
   element<HTMLSelectElement>("texture").value = drawn.texture;
   element<HTMLInputElement>("perspective").checked = drawn.perspective;
   element<HTMLSelectElement>("cull").value = drawn.cull;
-  document.body.dataset.drawn = text;
 }
 
 const draw = new Latest(machine, "draw", show_drawn);
@@ -132,15 +139,19 @@ const configure = new Latest(machine, "configuration", (answer) => {
   sliders.show(configuration, new Map(config_of(state)));
 });
 
+/** What was asked for last. */
+let configured: string | null = null;
 let address_timer = 0;
 /** As the page wrote or read it. */
 let address = location.hash;
 function show_state() {
   draw.ask(request_text(state));
-  configure.ask(config_text(state));
+  if (config_text(state) !== configured) configure.ask((configured = config_text(state)));
   const scene = [...lists.scenes, ...lists.workloads].find((s) => s.name === state.values.get("scene"));
-  element("title").textContent = scene ? `${scene.title} (${scene.paper})` : "";
+  set_text(element("title"), scene ? `${scene.title} (${scene.paper})` : "");
   element<HTMLSelectElement>("scene").value = scene?.name ?? "";
+  for (const button of document.querySelectorAll<HTMLElement>("#presets button"))
+    button.ariaPressed = String(button.dataset.scene === scene?.name);
   const config = new Map(config_of(state));
   const named = named_configurations.find(
     ([, keys]) => Object.keys(keys).length === config.size && Object.entries(keys).every(([k, v]) => config.get(k) === String(v)),
@@ -240,7 +251,8 @@ function listen() {
   };
   on_change("scene", (select) => choose_scene(select.value));
   fill_presets(element("presets"), choose_scene);
-  for (const key of ["shade", "texture", "cull"]) on_change(key, (select) => change([key, select.value]));
+  for (const key of ["shade", "cull"]) on_change(key, (select) => change([key, select.value]));
+  on_change("texture", (select) => change(["texture", select.value], ["shade", "texture"]));  // it is to be seen
   on_change("view", (select) => change(["view", select.value]));
   element("pixel_form").addEventListener("submit", (event) => event.preventDefault());
   element("pixel_form").addEventListener("change", () => {

@@ -32,7 +32,8 @@ export class Latest {
   constructor(
     private model: Model,
     private name: string,
-    private show: (answer: Answer, text: string) => void,
+    /** `last`: no other answer comes soon. */
+    private show: (answer: Answer, text: string, last: boolean) => void,
   ) {}
 
   async ask(text: string) {
@@ -44,7 +45,7 @@ export class Latest {
       const { answer, text } = next;
       const made = await answer;
       next = this.start();  // while this one is shown
-      this.show(made, text);
+      this.show(made, text, next === null);
       next ??= this.start();
     }
     this.busy = false;

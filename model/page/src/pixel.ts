@@ -78,13 +78,17 @@ function row(n: Quantity): HTMLElement {
 function stage(s: Stage): HTMLElement {
   const head = ["number", "stored", "value", "exact", "error / bound"].map((text) => node("th", text));
   for (const cell of head) cell.setAttribute("scope", "col");
+  const header = node("tr", "", head), rows = s.numbers.map(row);
+  // Columns with nothing in them take no room.
+  for (let at = head.length - 1; rows.every((r) => r.children[at].textContent === "") && at > 2; --at)
+    for (const r of [header, ...rows]) r.children[at].remove();
   const parts: Node[] = [node("summary", `${s.name}: ${s.title}`)];
   if (s.formulas.length) parts.push(node("p", s.formulas.join("\n"), [], "formula"));
   if (s.source) parts.push(node("p", s.source, [], "quiet"));
   for (const remark of s.remarks) parts.push(node("p", remark));
   if (s.numbers.length)
     parts.push(
-      node("div", "", [node("table", "", [node("thead", "", [node("tr", "", head)]), node("tbody", "", s.numbers.map(row))])], "wide"),
+      node("div", "", [node("table", "", [node("thead", "", [header]), node("tbody", "", rows)])], "wide"),
     );
   return node("details", "", parts);
 }

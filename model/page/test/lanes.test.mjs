@@ -14,6 +14,7 @@ _initialize();
 
 for (const config of ["", "significand_bits=8", "significand_bits=26 attribute_frac_bits=30", "significand_bits=21 align_guard_bits=6",
   "quadratic_frac_bits=12", "subpixel_bits=2 homogeneous_frac_bits=4 align_guard_bits=0", "sqrt_degree=1 recip_degree=1 tile_log2=4",
+  "significand_bits=26 sqrt_segments_log2=3 recip_segments_log2=3", "significand_bits=24 sqrt_segments_log2=14 recip_segments_log2=14",
   "viewport_bits=14 guard_bits=1"])
   test(`every stress family, ${config || "default configuration"}`, () => {
     const bytes = new TextEncoder().encode(config), place = input(bytes.length);

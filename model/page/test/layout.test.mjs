@@ -22,7 +22,7 @@ const all_settled = (page) => page.waitForFunction(() => window.quadrille.all_se
 for (const width of [400, 1400])
   for (const theme of ["light", "dark"])
     test(`${width} pixels wide, ${theme}`, async () => {
-      const hash = `#scene=fig10_concave&theme=${theme}`;
+      const hash = `#scene=fig10_concave&theme=${theme}&pixel=240,255`;
       const { page, problems, close } = await open(browser, server.address, hash, { viewport: { width, height: 900 } });
       await all_settled(page);
       await page.screenshot({ path: join(shots, `${width}_${theme}.png`), fullPage: true });
@@ -39,6 +39,17 @@ for (const width of [400, 1400])
           .map((e) => e.id || e.tagName)));
       assert.deepEqual(beyond_panel, []);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
+      const hidden_columns = await page.$$eval("#explained details", (stages) =>
+        stages.filter((stage) => {
+          stage.open = true;
+          const table = stage.querySelector(".wide");
+          return table && table.scrollWidth > table.clientWidth;
+        }).map((stage) => stage.dataset.stage));
+      assert.deepEqual(hidden_columns, []);
+      if (width > 1000) {
+        const hint = await page.locator("#hint").boundingBox();
+        assert.ok(hint.y + hint.height < 900, "what one can do is read without scrolling");
+      }
       // Text against what is behind it, by WCAG's formula.
       const contrast = await page.evaluate(() => {
         const luminance = (colour) => {

@@ -25,9 +25,12 @@ const states = [
   ["#scene=fig6_cuts", true],
   ["#scene=bloomenthal10_a&size=256x200", true],
   ["#scene=phong_mesh&cull=back", true],
+  ["#scene=sphere", true],
   ["#scene=fig7_floor&perspective=0&depth=0", true],
   ["#scene=fig10_convex&yaw=31.5&pitch=-12&dolly=0.25", true],
   ["#scene=fig8_behind&v1=0.4,0.1,-0.7&significand_bits=12&shade=lambda", true],
+  ["#scene=fig10_convex&v2=0.9,1.1,3.8", true],  // partly in front of the near plane
+  ["#scene=fig10_concave&shade=depth", true],
   ["#scene=sphere&yaw=20&pitch=35&dolly=0.5", false],
   ["#scene=phong_mesh_smooth&yaw=-40&cull=front&significand_bits=14", false],
 ];

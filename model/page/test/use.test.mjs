@@ -125,9 +125,18 @@ test("a figure of each kind is one click away", async () => {
     await page.click(`#presets [data-scene=${scene}]`);
     assert.equal((await values()).get("preset"), scene);
     assert.equal(await page.inputValue("#scene"), scene);
+    assert.deepEqual(await page.$$eval("#presets [aria-pressed=true]", (all) => all.map((b) => b.dataset.scene)), [scene]);
     seen.add(await picture());
   }
   assert.equal(seen.size, scenes.length);  // the first one was there before
+});
+
+test("a texture that is chosen is seen", async () => {
+  await page.click("#presets [data-scene=phong_mesh]");
+  const before = await picture();
+  await page.selectOption("#texture", "grid");
+  assert.notEqual(await picture(), before);
+  assert.equal(await page.inputValue("#shade"), "texture");
 });
 
 test("nothing stands beside the machine's picture, and something again", async () => {
@@ -330,7 +339,8 @@ test("dragging draws as many pictures as the processor allows", async () => {
     `${(frames / taken).toFixed(1)} a second of a processor, ${((frames / taken) * unit).toFixed(2)} a unit of it`);
   await watched.close();
   assert.ok(frames >= 10 && taken > 0.1);
-  assert.ok((frames / taken) * unit >= 4.4);  // half of the least that was measured: 8.8, at 27 a second of a shared processor
+  // Two thirds of what was measured: 13.6, at 41 a second of a shared processor. A fast path that is lost is seen.
+  assert.ok((frames / taken) * unit >= 9);
 });
 
 test("the page is small and soon there", async () => {
