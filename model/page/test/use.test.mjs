@@ -134,6 +134,7 @@ test("a figure of each kind is one click away", async () => {
 test("a texture that is chosen is seen", async () => {
   await page.click("#presets [data-scene=phong_mesh]");
   const before = await picture();
+  assert.equal(await page.inputValue("#shade"), "normal");
   await page.selectOption("#texture", "grid");
   assert.notEqual(await picture(), before);
   assert.equal(await page.inputValue("#shade"), "texture");
