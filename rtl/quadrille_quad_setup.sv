@@ -33,6 +33,7 @@ module quadrille_quad_setup #(
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
     // Jobs of vertex_products; their step is repeated while wait_i. The edge functions of DET jobs: value, gx, gy
     input logic wait_i,
+    output logic jobs_valid_o,
     output logic [quadrille_pkg::JOBS_BITS-1:0] jobs_o,
     output logic [PAIRS*EDGE_WIDTH-1:0] edges_o,
     input logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_i,
@@ -117,6 +118,7 @@ module quadrille_quad_setup #(
   logic [PLACE-1:0] middle_place_q, sum_place_q;
   /*verilator lint_off UNUSEDSIGNAL*/ `QUADRILLE_JOBS_T jobs;  /*verilator lint_on UNUSEDSIGNAL*/
 
+  assign jobs_valid_o = run_q;
   assign jobs = jobs_o;
   assign sum_ordinary = sum_place_q[PLACE-1];
 

@@ -136,10 +136,7 @@ module quadrille_stamp_coverage #(
     // Close: the sign, from the bit below the sign of CLOSE bits on.
     assign far = CLOSE < VAL && row_value_q[VAL-1:CLOSE-2] != '0 && row_value_q[VAL-1:CLOSE-2] != '1;
 
-    always_ff @(posedge clk_i) begin
-      far_q1 <= far;
-      far_neg_q1 <= row_value_q[VAL-1];
-    end
+    always_ff @(posedge clk_i) if (issue) {far_q1, far_neg_q1} <= {far, row_value_q[VAL-1]};
 
     // Odd multiples: the neighbour that four divides, plus or minus gx.
     for (genvar k = 0; k < TILE / 2; k++) begin : gen_multiple
@@ -164,15 +161,17 @@ module quadrille_stamp_coverage #(
       logic [CLOSE-1:0] value_q1;
 
       if (dx == 0) begin : gen_first
-        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0];
+        always_ff @(posedge clk_i) if (issue) value_q1 <= row_value_q[CLOSE-1:0];
       end else begin : gen_next
-        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] +
+        always_ff @(posedge clk_i) if (issue) value_q1 <= row_value_q[CLOSE-1:0] +
             (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
       end
 
       always_ff @(posedge clk_i) begin
-        is_zero_q2[g*TILE+dx] <= value_q1 == '0 && !far_q1;
-        is_neg_q2[g*TILE+dx] <= far_q1 ? far_neg_q1 : value_q1[CLOSE-1];
+        if (row_valid_q[0]) begin
+          is_zero_q2[g*TILE+dx] <= value_q1 == '0 && !far_q1;
+          is_neg_q2[g*TILE+dx] <= far_q1 ? far_neg_q1 : value_q1[CLOSE-1];
+        end
       end
     end
   end
