@@ -29,8 +29,9 @@ module quadrille_dot_unit #(
     logic [2*LOW-1:0] ll_q;
     logic signed [2*SUM-1:0] ss_q;
     logic [2*W-1:0] ends_q;
-    logic signed [2*SUM-1:0] end_sum_q;
+    logic signed [2*SUM-1:0] end_sum_q, middle;
     logic signed [2*W-1:0] product_q;
+    assign middle = ss_q - end_sum_q;  // xh yl + xl yh
     assign {xh, xl} = {x[g*W+LOW+:HIGH], 1'b0, x[g*W+:LOW]};
     assign {yh, yl} = {y[g*W+LOW+:HIGH], 1'b0, y[g*W+:LOW]};
 
@@ -43,7 +44,7 @@ module quadrille_dot_unit #(
         ss_q <= (2 * SUM)'(xs_q) * (2 * SUM)'(ys_q);
         ends_q <= {hh_q, ll_q};
         end_sum_q <= (2 * SUM)'(hh_q) + $signed((2 * SUM)'(ll_q));
-        product_q <= ends_q + ((2 * W)'(ss_q - end_sum_q) << LOW);  // xh yl + xl yh
+        product_q <= ends_q + ((2 * W)'(middle) << LOW);
       end
     end
   end

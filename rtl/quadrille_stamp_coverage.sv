@@ -181,7 +181,7 @@ module quadrille_stamp_coverage #(
   logic [TC-1:0] first_tile, end_tile;  // of the rectangle's columns
   logic [TILE_LOG2-1:0] first_dx, end_dx;
   logic row_inside_q1, right_of_first_q1, in_first_q1, left_of_end_q1, in_end_q1;
-  logic [TILE-1:0] in_scissor, in_scissor_q2;
+  logic [TILE-1:0] in_scissor_q2;
   assign y = {tile_y_q, row_q};
   assign {first_tile, first_dx} = state.scissor_x0;
   assign {end_tile, end_dx} = state.scissor_x1;
@@ -192,13 +192,11 @@ module quadrille_stamp_coverage #(
     in_first_q1 <= tile_x_q == first_tile;
     left_of_end_q1 <= tile_x_q < end_tile;
     in_end_q1 <= tile_x_q == end_tile;
-    in_scissor_q2 <= in_scissor;
-  end
-
-  always_comb begin
-    for (int dx = 0; dx < TILE; dx++) begin
-      in_scissor[dx] = row_inside_q1 && (right_of_first_q1 || (in_first_q1 && TILE_LOG2'(dx) >= first_dx))
-          && (left_of_end_q1 || (in_end_q1 && TILE_LOG2'(dx) < end_dx));
+    if (row_valid_q[0]) begin
+      for (int dx = 0; dx < TILE; dx++) begin
+        in_scissor_q2[dx] <= row_inside_q1 && (right_of_first_q1 || (in_first_q1 && TILE_LOG2'(dx) >= first_dx))
+            && (left_of_end_q1 || (in_end_q1 && TILE_LOG2'(dx) < end_dx));
+      end
     end
   end
 
