@@ -35,10 +35,6 @@ module quadrille_fp_normalise #(
       .value_i(WIDE'(magnitude_i) << (WIDE - WIDTH)), .count_o(high_count_d), .value_o(coarse_d)
   );
 
-  quadrille_delay_line #(.WIDTH(KEPT + COUNT_BITS - SPLIT + E), .DEPTH(32'(REGISTERED))) u_coarse_q (
-      .clk_i, .data_i({coarse_top, high_count_d, top_exp_d}), .data_o({coarse_q, high_count_q, top_exp_q})
-  );
-
   // Stage 2
   logic [KEPT-1:0] fine;
   logic [SPLIT-1:0] low_count;
@@ -52,10 +48,14 @@ module quadrille_fp_normalise #(
   assign exp = !fine[KEPT-1] ? '0 : top_exp_q - E'({high_count_q, low_count});
 
   if (REGISTERED) begin : gen_register
-    always_ff @(posedge clk_i) if (active_i) {exp_o, sig_o} <= {exp, sig};
+    always_ff @(posedge clk_i) begin
+      {coarse_q, high_count_q, top_exp_q} <= {coarse_top, high_count_d, top_exp_d};
+      if (active_i) {exp_o, sig_o} <= {exp, sig};
+    end
   end else begin : gen_wire
     logic unused;
-    assign unused = active_i;
+    assign unused = ^{clk_i, active_i};
+    assign {coarse_q, high_count_q, top_exp_q} = {coarse_top, high_count_d, top_exp_d};
     assign {exp_o, sig_o} = {exp, sig};
   end
 endmodule

@@ -30,10 +30,7 @@ module quadrille_fp_sum #(
   localparam int SUM = MAG + 1;
 
   // ---- Beside the multipliers: the higher rank of each pair --------------------------------------------------------
-  logic [TERMS*RANK-1:0] rank_q;
   logic [PAIRS*RANK-1:0] higher_q;
-
-  always_ff @(posedge clk_i) rank_q <= rank_i;
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_higher
     localparam int FIRST = 2 * p, SECOND = (FIRST + 1 < TERMS) ? FIRST + 1 : FIRST;
@@ -44,34 +41,32 @@ module quadrille_fp_sum #(
     end
   end
 
-  // ---- Stage 1: the highest rank, and how far each term is below it ------------------------------------------------
+  // ---- Stage 1: the highest rank, and how far each term is below it. Stage 2: align --------------------------------
   localparam int NEAR = $clog2(TERM);  // bits of a distance that leaves something of a term
   logic [RANK-1:0] top;
-  logic [TERMS*E-1:0] distance_q;
-  logic [TERMS*TERM-1:0] term_q;
   logic [TERMS-1:0] neg_q;
-  logic [E-1:0] top_exp_q;
+  logic [E-1:0] top_exp_q, aligned_exp_q;
+  logic across_q;  // signs of the pairs
+  logic aligned_neg_q;
   assign top = (PAIRS == 2 && higher_q[(PAIRS-1)*RANK+:RANK] > higher_q[0+:RANK]) ? higher_q[(PAIRS-1)*RANK+:RANK] :
       higher_q[0+:RANK];
 
-  always_ff @(posedge clk_i) begin
-    for (int k = 0; k < TERMS; k++) distance_q[k*E+:E] <= top[E-1:0] - rank_q[k*RANK+:E];  // of a zero: any
-    term_q <= term_i;
-    neg_q <= neg_i;
-    top_exp_q <= quadrille_pkg::rank_exponent(top);
+  for (genvar k = 0; k < TERMS; k++) begin : gen_term
+    logic [E-1:0] rank_q, distance_q;
+    logic [TERM-1:0] term_q, aligned_q;
+
+    always_ff @(posedge clk_i) begin
+      rank_q <= rank_i[k*RANK+:E];
+      distance_q <= top[E-1:0] - rank_q;  // of a zero: any
+      term_q <= term_i[k*TERM+:TERM];
+      aligned_q <= term_q >> distance_q[NEAR-1:0];
+      if (distance_q[E-1:NEAR] != '0) aligned_q <= '0;  // by the registers' synchronous reset
+    end
   end
 
-  // ---- Stage 2: align ----------------------------------------------------------------------------------------------
-  logic [TERMS*TERM-1:0] aligned_q;
-  logic across_q;  // signs of the pairs
-  logic aligned_neg_q;
-  logic [E-1:0] aligned_exp_q;
-
   always_ff @(posedge clk_i) begin
-    for (int k = 0; k < TERMS; k++) begin  // the far ones by the registers' synchronous reset
-      aligned_q[k*TERM+:TERM] <= term_q[k*TERM+:TERM] >> distance_q[k*E+:NEAR];
-      if (distance_q[k*E+NEAR+:E-NEAR] != '0) aligned_q[k*TERM+:TERM] <= '0;
-    end
+    neg_q <= neg_i;
+    top_exp_q <= quadrille_pkg::rank_exponent(top);
     across_q <= neg_q[0] != neg_q[2*(PAIRS-1)];
     aligned_neg_q <= neg_q[0];
     aligned_exp_q <= top_exp_q;
@@ -89,10 +84,10 @@ module quadrille_fp_sum #(
 
       always_ff @(posedge clk_i) differ_q <= neg_q[2*p] != neg_q[2*p+1];
 
-      assign pair[p*PAIR+:PAIR] = PAIR'(({PAIR'(aligned_q[2*p*TERM+:TERM]), 1'b1}
-          + {PAIR'(aligned_q[(2*p+1)*TERM+:TERM]) ^ {PAIR{differ_q}}, differ_q}) >> 1);
+      assign pair[p*PAIR+:PAIR] = PAIR'(({PAIR'(gen_term[2*p].aligned_q), 1'b1}
+          + {PAIR'(gen_term[2*p+1].aligned_q) ^ {PAIR{differ_q}}, differ_q}) >> 1);
     end else begin : gen_one
-      assign pair[p*PAIR+:PAIR] = PAIR'(aligned_q[2*p*TERM+:TERM]);
+      assign pair[p*PAIR+:PAIR] = PAIR'(gen_term[2*p].aligned_q);
     end
   end
 

@@ -40,7 +40,7 @@ module quadrille_front #(
     output logic [quadrille_pkg::FRONT_EVENTS_BITS-1:0] events_o
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
-  logic full, empty, behind, outside_depth, drop_vertices, setup_ready, slot_available, drop;
+  logic full, empty, behind, outside_depth, drop_vertices, setup_ready, slot_available, drop, setup_jobs_valid;
   logic [SLOT-1:0] drop_slot;
   logic [quadrille_pkg::JOBS_BITS-1:0] setup_jobs;
   logic [PAIRS*(quadrille_pkg::VAL_BITS+2*GRAD)-1:0] edges;
@@ -58,13 +58,14 @@ module quadrille_front #(
 
   quadrille_quad_setup u_setup (
       .clk_i, .rst_ni, .state_i, .held_i(full && !drop_vertices), .start_i(start_o), .ready_o(setup_ready),
-      .empty_i(empty), .slot_i(start_slot_o), .quad_i(quad_o), .wait_i(jobs_valid_i), .jobs_o(setup_jobs),
-      .edges_o(edges), .products_i(products_o), .valid_o(setup_valid_o), .take_i, .setup_o, .drop_o(drop),
+      .empty_i(empty), .slot_i(start_slot_o), .quad_i(quad_o), .wait_i(jobs_valid_i),
+      .jobs_valid_o(setup_jobs_valid), .jobs_o(setup_jobs), .edges_o(edges), .products_i(products_o), .valid_o(setup_valid_o), .take_i, .setup_o, .drop_o(drop),
       .drop_slot_o(drop_slot), .events_o(setup_events)
   );
 
   quadrille_vertex_products u_products (
-      .clk_i, .tile_valid_i(jobs_valid_i), .tile_i(jobs_i), .setup_i(setup_jobs), .edges_i(edges), .products_o
+      .clk_i, .tile_valid_i(jobs_valid_i), .tile_i(jobs_i), .setup_valid_i(setup_jobs_valid),
+      .setup_i(setup_jobs), .edges_i(edges), .products_o
   );
 
   quadrille_slot_allocation u_slots (

@@ -103,12 +103,13 @@ module quadrille_pixel_lane #(
   // numbers, and all of what is no pixel, as the first parts of a homogeneous one, are not taken on, so that the
   // operands of everything up to the weights stay as they are. Of a plane_quad the weights are areas: A alone is taken
   // on.
-  logic corner, taken_on, norm_active_q, distance_active_q, class_active_q;
+  logic corner, taken_on, distance_taken_on, norm_active_q, distance_active_q, class_active_q;
   assign taken_on = !state.skip[4] || (valid_q[NORM-2] && !corner);
+  assign distance_taken_on = taken_on && !terms.norm_plane;
 
   always_ff @(posedge clk_i) begin
     norm_active_q <= taken_on;
-    distance_active_q <= taken_on && !terms.norm_plane;
+    distance_active_q <= distance_taken_on;
     class_active_q <= !state.skip[4] || valid_q[NORM-2];
   end
 

@@ -33,6 +33,7 @@ module quadrille_quad_setup #(
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
     // Jobs of vertex_products; their step is repeated while wait_i. The edge functions of DET jobs: value, gx, gy
     input logic wait_i,
+    output logic jobs_valid_o,
     output logic [quadrille_pkg::JOBS_BITS-1:0] jobs_o,
     output logic [PAIRS*EDGE_WIDTH-1:0] edges_o,
     input logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_i,
@@ -48,21 +49,7 @@ module quadrille_quad_setup #(
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   `QUADRILLE_IN(`QUADRILLE_QUAD_T, quad)
   `QUADRILLE_IN(`QUADRILLE_PRODUCTS_T, products)
-  logic [SLOT-1:0] setup_slot;
-  logic [4*TC-1:0] setup_tiles;
-  logic [TL-1:0] setup_last_row;
-  logic [4*(2*T+W)-1:0] setup_vertices;
-  logic setup_homogeneous, setup_hull;
-  logic [3:0] setup_visible;
-  logic [6*(VAL+2*GRAD)-1:0] setup_linear;
-  logic [9:0] setup_ties;
-  logic [20*REACH-1:0] setup_reaches;
-  logic [6*LENGTH2-1:0] setup_length2;
   localparam int CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
-  assign setup_o = {setup_slot, setup_tiles, setup_last_row, setup_vertices, setup_homogeneous, setup_hull,
-      setup_visible, setup_linear,
-      setup_ties, setup_reaches, setup_length2};
-
   logic boxed;
   logic [TC-1:0] box_x0, box_y0, box_columns, box_rows;
   logic [TL-1:0] box_last_row;
@@ -111,12 +98,13 @@ module quadrille_quad_setup #(
   // ---- What goes with a quad: slot, tiles, vertices relative to the origin pixel ------------------------------------
   localparam int PLACE = SLOT + 4 * TC + TL + 1 + 4 * (2 * T + W);
   logic front_ordinary_q, sum_ordinary;
-  logic [SLOT-1:0] front_slot_q;
+  logic [SLOT-1:0] front_slot_q, done_slot_q;
   logic [4*TC-1:0] front_tiles_q;
   logic [TL-1:0] front_row_q;
   logic [PLACE-1:0] middle_place_q, sum_place_q;
   /*verilator lint_off UNUSEDSIGNAL*/ `QUADRILLE_JOBS_T jobs;  /*verilator lint_on UNUSEDSIGNAL*/
 
+  assign jobs_valid_o = run_q;
   assign jobs = jobs_o;
   assign sum_ordinary = sum_place_q[PLACE-1];
 
@@ -129,10 +117,8 @@ module quadrille_quad_setup #(
     end
     if (front_q) middle_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, jobs.x, jobs.y, jobs.w};
     if (advance) sum_place_q <= middle_place_q;
-    if (hand_over) begin
-      {setup_slot, setup_tiles, setup_last_row, setup_vertices} <= sum_place_q[PLACE-2:0];
-      setup_homogeneous <= !sum_ordinary;
-    end
+    if (hand_over) {done_slot_q, setup_o} <= {sum_place_q[PLACE-2-:SLOT], sum_place_q[PLACE-2:0], !sum_ordinary, hull,
+          visible, functions};
   end
 
   // ---- Steps, and what comes of them -------------------------------------------------------------------------------
@@ -142,6 +128,10 @@ module quadrille_quad_setup #(
   logic second;
   logic [6*VAL-1:0] lin_value;
   logic [6*GRAD-1:0] lin_gx, lin_gy;
+  logic hull;
+  logic [3:0] visible;  // of the clauses, as setup.visible
+  logic [6*EDGE_WIDTH+10+20*REACH+6*LENGTH2-1:0] functions;  // of setup_o
+  assign functions[10+20*REACH+6*LENGTH2+:6*EDGE_WIDTH] = {lin_value, lin_gx, lin_gy};
   logic [3:0] negative, zero;  // d_012, d_023, d_123, d_013
   quadrille_setup_steps u_steps (
       .clk_i, .rst_ni, .state_i, .start_i, .quad_i, .tile_x0_i(box_x0), .tile_y0_i(box_y0), .run_i(run_q),
@@ -190,8 +180,8 @@ module quadrille_quad_setup #(
   quadrille_setup_functions u_functions (
       .clk_i, .products_i, .edge_job_i(edge_job), .gradient_job_i(gradient_job), .job_group_i(job_group),
       .ordinary_job_i(ordinary_job), .value_o(values), .lin_value_o(lin_value), .lin_gx_o(lin_gx), .lin_gy_o(lin_gy),
-      .hand_over_i(hand_over), .linear_o(setup_linear), .ties_o(setup_ties), .reaches_o(setup_reaches),
-      .length2_o(setup_length2)
+      .ties_o(functions[20*REACH+6*LENGTH2+:10]), .reaches_o(functions[6*LENGTH2+:20*REACH]),
+      .length2_o(functions[0+:6*LENGTH2])
   );
 
   logic cornered;
@@ -202,8 +192,6 @@ module quadrille_quad_setup #(
       .corner_zero_o(corner_zero)
   );
 
-  logic hull;
-  logic [3:0] visible;  // of the clauses, as setup_visible
   quadrille_eye_in_hull u_eye_in_hull (
       .ordinary_i(sum_ordinary), .negative_i(negative), .zero_i(zero), .hull_o(hull), .visible_o(visible)
   );
@@ -245,8 +233,6 @@ module quadrille_quad_setup #(
   logic [3:0] missing;
   assign missing = {4{cornered && !sum_ordinary && !hull}} & {separated, separated};
 
-  always_ff @(posedge clk_i) if (hand_over) {setup_hull, setup_visible} <= {hull, visible};
-
   // ---- Left out: both triangles of expression (12) without area, or turned away ------------------------------------
   // An ordinary quad's triangles have the areas of E01 + E12 + E20 and E23 + E30 - E20, anywhere: added up as the
   // values come, and known a clock before all is. A homogeneous quad's clauses are those of its determinants, but for
@@ -279,7 +265,7 @@ module quadrille_quad_setup #(
 
   assign drop_result = done_q && left_out_q;
   assign drop_o = drop_result || drop_summed;
-  assign drop_slot_o = drop_result ? setup_slot : sum_place_q[PLACE-2-:SLOT];
+  assign drop_slot_o = drop_result ? done_slot_q : sum_place_q[PLACE-2-:SLOT];
   assign valid_o = done_q && !left_out_q;
 
 `ifndef SYNTHESIS

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 // The linear functions of quad_setup from their results: value, gradient, what they reach over a tile and a block, tie
-// signs; squared lengths. Those of a complete quad move to the outputs with hand_over_i.
+// signs; squared lengths.
 module quadrille_setup_functions #(
     localparam int VAL = quadrille_pkg::VAL_BITS, GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS,
     localparam int RISE = quadrille_pkg::RISE_BITS, LENGTH2 = quadrille_pkg::LENGTH2_BITS,
@@ -17,9 +17,6 @@ module quadrille_setup_functions #(
     // Functions so far
     output logic [6*VAL-1:0] lin_value_o,
     output logic [6*GRAD-1:0] lin_gx_o, lin_gy_o,
-    // Functions of the quad that is done
-    input logic hand_over_i,
-    output logic [6*(VAL+2*GRAD)-1:0] linear_o,  // value, gx, gy
     output logic [9:0] ties_o,  // tie_pos, tie_neg
     output logic [20*REACH-1:0] reaches_o,  // fall_tile, rise_tile, fall_block, rise_block
     output logic [6*LENGTH2-1:0] length2_o
@@ -27,13 +24,6 @@ module quadrille_setup_functions #(
   localparam int FRAC = quadrille_pkg::FRAC;
   localparam int QDROP = quadrille_pkg::QDROP, CLOCKS = quadrille_pkg::VERTEX_PRODUCT_CLOCKS;
   `QUADRILLE_IN(`QUADRILLE_PRODUCTS_T, products)
-  logic [6*VAL-1:0] setup_lin_value;
-  logic [6*GRAD-1:0] setup_lin_gx, setup_lin_gy;
-  logic [4:0] setup_tie_pos, setup_tie_neg;
-  logic [5*REACH-1:0] setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block;
-  assign linear_o = {setup_lin_value, setup_lin_gx, setup_lin_gy};
-  assign ties_o = {setup_tie_pos, setup_tie_neg};
-  assign reaches_o = {setup_fall_tile, setup_rise_tile, setup_fall_block, setup_rise_block};
 
   // ---- Gradients of an ordinary quad: differences of coordinates, which wait beside the products --------------------
   // gx = Ty_i - Ty_j, gy = Tx_j - Tx_i, both times 2^FRAC.
@@ -80,9 +70,6 @@ module quadrille_setup_functions #(
     assign unused = ^{result0, result1};  // the upper bits, in small configurations
   end
 
-  localparam int REACHES = 2 + 4 * REACH;
-  logic [6*LENGTH2-1:0] length2_q;
-
   for (genvar g = 0; g < 6; g++) begin : gen_function
     localparam int P = g % PAIRS;
     localparam logic [2:0] GROUP = 3'(g / PAIRS);
@@ -92,46 +79,24 @@ module quadrille_setup_functions #(
     always_ff @(posedge clk_i) begin
       if (edge_job_i && mine) begin
         lin_value_o[g*VAL+:VAL] <= gen_result[P].value;
-        length2_q[g*LENGTH2+:LENGTH2] <= gen_result[P].length2;
+        length2_o[g*LENGTH2+:LENGTH2] <= gen_result[P].length2;
       end
       if (load_gradient && mine) begin
         lin_gx_o[g*GRAD+:GRAD] <= gen_result[P].gx;
         lin_gy_o[g*GRAD+:GRAD] <= gen_result[P].gy;
       end
-      if (hand_over_i) begin
-        setup_lin_value[g*VAL+:VAL] <= lin_value_o[g*VAL+:VAL];
-        length2_o[g*LENGTH2+:LENGTH2] <= length2_q[g*LENGTH2+:LENGTH2];
-        setup_lin_gx[g*GRAD+:GRAD] <= lin_gx_o[g*GRAD+:GRAD];
-        setup_lin_gy[g*GRAD+:GRAD] <= lin_gy_o[g*GRAD+:GRAD];
-      end
     end
 
     if (g < 5) begin : gen_reach  // not of the diagonal 13, which is no edge of a clause
-      logic [REACHES-1:0] reach_q;
-
       always_ff @(posedge clk_i) begin
         if (load_reach_q && reach_group_q == GROUP) begin
-          reach_q <= {
-            gen_result[P].tie_pos,
-            gen_result[P].tie_neg,
-            gen_result[P].fall_tile,
-            gen_result[P].rise_tile,
-            gen_result[P].fall_block,
-            gen_result[P].rise_block
-          };
-        end
-        if (hand_over_i) begin
-          {
-            setup_tie_pos[g],
-            setup_tie_neg[g],
-            setup_fall_tile[g*REACH+:REACH],
-            setup_rise_tile[g*REACH+:REACH],
-            setup_fall_block[g*REACH+:REACH],
-            setup_rise_block[g*REACH+:REACH]
-          } <= reach_q;
+          {ties_o[5+g], ties_o[g]} <= {gen_result[P].tie_pos, gen_result[P].tie_neg};
+          reaches_o[(15+g)*REACH+:REACH] <= gen_result[P].fall_tile;
+          reaches_o[(10+g)*REACH+:REACH] <= gen_result[P].rise_tile;
+          reaches_o[(5+g)*REACH+:REACH] <= gen_result[P].fall_block;
+          reaches_o[g*REACH+:REACH] <= gen_result[P].rise_block;
         end
       end
     end
   end
-
 endmodule

@@ -136,10 +136,7 @@ module quadrille_stamp_coverage #(
     // Close: the sign, from the bit below the sign of CLOSE bits on.
     assign far = CLOSE < VAL && row_value_q[VAL-1:CLOSE-2] != '0 && row_value_q[VAL-1:CLOSE-2] != '1;
 
-    always_ff @(posedge clk_i) begin
-      far_q1 <= far;
-      far_neg_q1 <= row_value_q[VAL-1];
-    end
+    always_ff @(posedge clk_i) if (issue) {far_q1, far_neg_q1} <= {far, row_value_q[VAL-1]};
 
     // Odd multiples: the neighbour that four divides, plus or minus gx.
     for (genvar k = 0; k < TILE / 2; k++) begin : gen_multiple
@@ -164,15 +161,17 @@ module quadrille_stamp_coverage #(
       logic [CLOSE-1:0] value_q1;
 
       if (dx == 0) begin : gen_first
-        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0];
+        always_ff @(posedge clk_i) if (issue) value_q1 <= row_value_q[CLOSE-1:0];
       end else begin : gen_next
-        always_ff @(posedge clk_i) value_q1 <= row_value_q[CLOSE-1:0] +
+        always_ff @(posedge clk_i) if (issue) value_q1 <= row_value_q[CLOSE-1:0] +
             (CLOSE'($signed(gen_multiple[(dx>>ZEROS)/2].multiple_q)) << ZEROS);
       end
 
       always_ff @(posedge clk_i) begin
-        is_zero_q2[g*TILE+dx] <= value_q1 == '0 && !far_q1;
-        is_neg_q2[g*TILE+dx] <= far_q1 ? far_neg_q1 : value_q1[CLOSE-1];
+        if (row_valid_q[0]) begin
+          is_zero_q2[g*TILE+dx] <= value_q1 == '0 && !far_q1;
+          is_neg_q2[g*TILE+dx] <= far_q1 ? far_neg_q1 : value_q1[CLOSE-1];
+        end
       end
     end
   end
@@ -182,7 +181,7 @@ module quadrille_stamp_coverage #(
   logic [TC-1:0] first_tile, end_tile;  // of the rectangle's columns
   logic [TILE_LOG2-1:0] first_dx, end_dx;
   logic row_inside_q1, right_of_first_q1, in_first_q1, left_of_end_q1, in_end_q1;
-  logic [TILE-1:0] in_scissor, in_scissor_q2;
+  logic [TILE-1:0] in_scissor_q2;
   assign y = {tile_y_q, row_q};
   assign {first_tile, first_dx} = state.scissor_x0;
   assign {end_tile, end_dx} = state.scissor_x1;
@@ -193,13 +192,11 @@ module quadrille_stamp_coverage #(
     in_first_q1 <= tile_x_q == first_tile;
     left_of_end_q1 <= tile_x_q < end_tile;
     in_end_q1 <= tile_x_q == end_tile;
-    in_scissor_q2 <= in_scissor;
-  end
-
-  always_comb begin
-    for (int dx = 0; dx < TILE; dx++) begin
-      in_scissor[dx] = row_inside_q1 && (right_of_first_q1 || (in_first_q1 && TILE_LOG2'(dx) >= first_dx))
-          && (left_of_end_q1 || (in_end_q1 && TILE_LOG2'(dx) < end_dx));
+    if (row_valid_q[0]) begin
+      for (int dx = 0; dx < TILE; dx++) begin
+        in_scissor_q2[dx] <= row_inside_q1 && (right_of_first_q1 || (in_first_q1 && TILE_LOG2'(dx) >= first_dx))
+            && (left_of_end_q1 || (in_end_q1 && TILE_LOG2'(dx) < end_dx));
+      end
     end
   end
 

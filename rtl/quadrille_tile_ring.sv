@@ -63,12 +63,14 @@ module quadrille_tile_ring #(
   localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
 
   logic [RING:0] write_q, complete_q, tail_q;  // next entry to write, first one that is not complete, first one in use
-  logic [RING:0] used;
-  logic in_parts;  // the entry that comes takes one for each part
+  logic [RING:0] used, complete_next;
+  logic completes, in_parts;  // the entry that comes takes one for each part
   logic [RING-1:0] write_index, fetch_index, load_index, tag_index, emit_index_q, word_index_q;
   assign used = write_q - tail_q;
+  assign complete_next = complete_q + (words.complete_homogeneous ? PARTS : (RING + 1)'(1));
   assign in_parts = homogeneous_i && !end_i;
   assign full_o = used > (in_parts ? (RING + 1)'(ENTRIES) - PARTS : (RING + 1)'(ENTRIES - 1));
+  assign completes = words.complete;
   assign stamp_present_o = fetch_ptr_i != complete_q;
   assign write_index = write_q[RING-1:0];
   assign entry_o = write_index;
@@ -83,7 +85,7 @@ module quadrille_tile_ring #(
       tail_q <= '0;
     end else begin
       if (push_i) write_q <= write_q + (in_parts ? PARTS : (RING + 1)'(1));
-      if (words.complete) complete_q <= complete_q + (words.complete_homogeneous ? PARTS : (RING + 1)'(1));
+      if (completes) complete_q <= complete_next;
       if (head_valid_i) tail_q <= head_ptr_i;
       else if (stamps_empty_i) tail_q <= stamp_ptr_i;
     end

@@ -42,11 +42,8 @@ module quadrille_tile_walk #(
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup)
-  logic [quadrille_pkg::QUAD_SLOTS_LOG2-1:0] tile_slot;
-  logic [quadrille_pkg::TC_BITS-1:0] tile_tile_x, tile_tile_y, tile_column, tile_row;
-  logic [quadrille_pkg::TILE_LOG2-1:0] tile_last_row;
-  logic [6*quadrille_pkg::VAL_BITS-1:0] tile_lin_value;
   localparam int BLOCK_LOG2 = quadrille_pkg::BLOCK_LOG2;
+  localparam int LINEAR = 6 * quadrille_pkg::VAL_BITS;
   localparam int TL = TILE_LOG2;  // log2 of a tile step in pixels
 
   // FLUSH: until the end entry is in the ring, or the next quad comes. APPROACH: to the scissor's first block.
@@ -240,6 +237,9 @@ module quadrille_tile_walk #(
 
   // ---- Extent test -------------------------------------------------------------------------------------------------
   logic [4:0] some_pos_q1, some_neg_q1;
+  logic [quadrille_pkg::TILE_BITS-LINEAR-1:0] place_q;  // of the tile: all but its functions
+  logic [LINEAR-1:0] tile_lin_value;
+  assign tile_o = {place_q, tile_lin_value};
   quadrille_walk_values u_values (
       .clk_i, .take_i(take_o), .setup_i, .go_i(go), .in_walk_i(in_walk), .step_block_i(step_block),
       .enter_walk_i(enter_walk), .tile_end_i(tile_end), .row_end_i(row_end_q), .back_i(back_q),
@@ -261,13 +261,8 @@ module quadrille_tile_walk #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (go) begin
-      tile_slot <= slot_q1;
-      {tile_column, tile_row} <= {column_q1, row_q1};
-      tile_last_row <= (row_q1 == last_y_q) ? last_row_q : '1;
-      tile_tile_x <= tile_x0_q + column_q1;
-      tile_tile_y <= tile_y0_q + row_q1;
-    end
+    if (go) place_q <= {slot_q1, tile_x0_q + column_q1, tile_y0_q + row_q1, column_q1,
+          row_q1, (row_q1 == last_y_q) ? last_row_q : {TILE_LOG2{1'b1}}};
   end
 
   assign events_o = {6{quadrille_pkg::PERFORMANCE_COUNTERS != 0}} & {
@@ -279,7 +274,6 @@ module quadrille_tile_walk #(
     state_q != IDLE
   };
 
-  assign tile_o = {tile_slot, tile_tile_x, tile_tile_y, tile_column, tile_row, tile_last_row, tile_lin_value};
   assign test_o = {
     go,
     test_column,

@@ -2,7 +2,7 @@
 `include "quadrille_types.svh"
 // The multipliers of the front: pairs of dot_units, and which coordinates of a pair of vertices they multiply. A job a
 // clock for each of PRODUCT_PAIRS pairs of units, results VERTEX_PRODUCT_CLOCKS later: pair, operands, then dot_unit's
-// other registers.
+// registers. Without a job on its way they hold.
 //
 // Two users: tile_context (tile_*), which comes first and then has all units, and quad_setup. A job is a kind and a
 // function, whose pair of vertices i, j (quadrille_pkg::pair_first, pair_second) it takes from its user's four
@@ -27,6 +27,7 @@ module quadrille_vertex_products #(
 ) (
     input logic clk_i, tile_valid_i,
     input logic [quadrille_pkg::JOBS_BITS-1:0] tile_i,  // the offset is still there a clock later
+    input logic setup_valid_i,
     input logic [quadrille_pkg::JOBS_BITS-1:0] setup_i,  // taken when there is none of a tile
     input logic [PAIRS*(VAL+2*GRAD)-1:0] edges_i,  // with the setup's jobs: value, gx, gy
     output logic [quadrille_pkg::PRODUCTS_BITS-1:0] products_o
@@ -38,7 +39,8 @@ module quadrille_vertex_products #(
 
   logic [4*T-1:0] x, y;
   logic [4*W-1:0] w;
-  logic tile_q;
+  logic tile_q, job;
+  logic [quadrille_pkg::VERTEX_PRODUCT_CLOCKS-2:0] job_q;  // in register n is one
   logic [V:0] offset_x, offset_y;
   logic [PAIRS*T-1:0] all_xi, all_yi, all_xj, all_yj;
   logic [PAIRS*RISE-1:0] all_apart_x, all_apart_y;
@@ -51,7 +53,9 @@ module quadrille_vertex_products #(
   assign offset_x = tile_q ? tile.offset_x : setup.offset_x;
   assign offset_y = tile_q ? tile.offset_y : setup.offset_y;
 
-  always_ff @(posedge clk_i) tile_q <= tile_valid_i;
+  assign job = tile_valid_i || setup_valid_i;
+
+  always_ff @(posedge clk_i) {job_q, tile_q} <= {job_q[quadrille_pkg::VERTEX_PRODUCT_CLOCKS-3:0], job, tile_valid_i};
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_pair
     // ---- Pair -------------------------------------------------------------------------------------------------------
@@ -69,11 +73,13 @@ module quadrille_vertex_products #(
     );
 
     always_ff @(posedge clk_i) begin
-      kind <= tile_valid_i ? tile.kind[p*3+:3] : setup.kind[p*3+:3];
-      {xi, yi, wi, xj, yj, wj} <= {xi_d, yi_d, wi_d, xj_d, yj_d, wj_d};
-      edge_value <= 64'($signed(edges_i[p*EDGE+2*GRAD+:VAL]));
-      edge_gx <= 64'($signed(edges_i[p*EDGE+GRAD+:GRAD]));
-      edge_gy <= 64'($signed(edges_i[p*EDGE+:GRAD]));
+      if (job) begin
+        kind <= tile_valid_i ? tile.kind[p*3+:3] : setup.kind[p*3+:3];
+        {xi, yi, wi, xj, yj, wj} <= {xi_d, yi_d, wi_d, xj_d, yj_d, wj_d};
+        edge_value <= 64'($signed(edges_i[p*EDGE+2*GRAD+:VAL]));
+        edge_gx <= 64'($signed(edges_i[p*EDGE+GRAD+:GRAD]));
+        edge_gy <= 64'($signed(edges_i[p*EDGE+:GRAD]));
+      end
     end
 
     assign apart_x_d = RISE'($signed(xj)) - RISE'($signed(xi));
@@ -97,51 +103,53 @@ module quadrille_vertex_products #(
     assign apart_x = DOT'($signed(apart_x_d));
     assign apart_y = DOT'($signed(apart_y_d));
 
-    always_comb begin
-      case (kind)
-        quadrille_pkg::EDGE: begin
-          {a0, b0, c0, d0} = {x_i, y_j, y_i, x_j};
-          {a1, b1, c1, d1} = {apart_x, apart_x, apart_y, apart_y};
-        end
-        quadrille_pkg::EDGE_GRADIENT: begin
-          {a0, b0, c0, d0} = {y_i, w_j, w_i, y_j};
-          {a1, b1, c1, d1} = {w_i, x_j, x_i, w_j};
-        end
-        quadrille_pkg::DOT: begin
-          {a0, b0, c0, d0} = {x_i, x_j, y_i, y_j};
-          {a1, b1, c1, d1} = {w_i, w_j, y_i, DOT'(0)};
-        end
-        quadrille_pkg::DOT_GRADIENT: begin
-          {a0, b0, c0, d0} = {x_i, w_j, w_i, x_j};
-          {a1, b1, c1, d1} = {w_i, y_j, y_i, w_j};
-        end
-        quadrille_pkg::SQUARES: begin
-          {a0, b0, c0, d0} = {x_i, x_i, y_i, y_i};
-          {a1, b1, c1, d1} = {x_j, x_j, y_j, y_j};
-        end
-        quadrille_pkg::MOVE: begin
-          {a0, b0, c0, d0} = {x_i, DOT'(1), w_i, DOT'(offset_x)};
-          {a1, b1, c1, d1} = {y_i, DOT'(1), w_i, DOT'(offset_y)};
-        end
-        quadrille_pkg::DET_VALUE: begin
-          {a0, b0, c0, d0} = {w_i, DOT'(edge_value[31:0]), y_i, DOT'(0)};
-          {a1, b1, c1, d1} = {w_i, DOT'($signed(edge_value[63:32])), y_i, DOT'(0)};
-        end
-        default: begin  // DET_GRADIENT
-          {a0, b0, c0, d0} = {x_i, DOT'(edge_gx[31:0]), y_i, DOT'(edge_gy[31:0])};
-          {a1, b1, c1, d1} = {x_i, DOT'($signed(edge_gx[63:32])), y_i, DOT'($signed(edge_gy[63:32]))};
-        end
-      endcase
-      subtract0 = kind == quadrille_pkg::EDGE || kind == quadrille_pkg::EDGE_GRADIENT || kind == quadrille_pkg::MOVE;
-      subtract1 = kind == quadrille_pkg::EDGE_GRADIENT || kind == quadrille_pkg::MOVE;
+    always_ff @(posedge clk_i) begin
+      if (job_q[0]) begin
+        case (kind)
+          quadrille_pkg::EDGE: begin
+            {a0, b0, c0, d0} <= {x_i, y_j, y_i, x_j};
+            {a1, b1, c1, d1} <= {apart_x, apart_x, apart_y, apart_y};
+          end
+          quadrille_pkg::EDGE_GRADIENT: begin
+            {a0, b0, c0, d0} <= {y_i, w_j, w_i, y_j};
+            {a1, b1, c1, d1} <= {w_i, x_j, x_i, w_j};
+          end
+          quadrille_pkg::DOT: begin
+            {a0, b0, c0, d0} <= {x_i, x_j, y_i, y_j};
+            {a1, b1, c1, d1} <= {w_i, w_j, y_i, DOT'(0)};
+          end
+          quadrille_pkg::DOT_GRADIENT: begin
+            {a0, b0, c0, d0} <= {x_i, w_j, w_i, x_j};
+            {a1, b1, c1, d1} <= {w_i, y_j, y_i, w_j};
+          end
+          quadrille_pkg::SQUARES: begin
+            {a0, b0, c0, d0} <= {x_i, x_i, y_i, y_i};
+            {a1, b1, c1, d1} <= {x_j, x_j, y_j, y_j};
+          end
+          quadrille_pkg::MOVE: begin
+            {a0, b0, c0, d0} <= {x_i, DOT'(1), w_i, DOT'(offset_x)};
+            {a1, b1, c1, d1} <= {y_i, DOT'(1), w_i, DOT'(offset_y)};
+          end
+          quadrille_pkg::DET_VALUE: begin
+            {a0, b0, c0, d0} <= {w_i, DOT'(edge_value[31:0]), y_i, DOT'(0)};
+            {a1, b1, c1, d1} <= {w_i, DOT'($signed(edge_value[63:32])), y_i, DOT'(0)};
+          end
+          default: begin  // DET_GRADIENT
+            {a0, b0, c0, d0} <= {x_i, DOT'(edge_gx[31:0]), y_i, DOT'(edge_gy[31:0])};
+            {a1, b1, c1, d1} <= {x_i, DOT'($signed(edge_gx[63:32])), y_i, DOT'($signed(edge_gy[63:32]))};
+          end
+        endcase
+        subtract0 <= kind == quadrille_pkg::EDGE || kind == quadrille_pkg::EDGE_GRADIENT || kind == quadrille_pkg::MOVE;
+        subtract1 <= kind == quadrille_pkg::EDGE_GRADIENT || kind == quadrille_pkg::MOVE;
+      end
     end
 
     quadrille_dot_unit u_dot0 (
-        .clk_i, .a_i(a0), .b_i(b0), .c_i(c0), .d_i(d0), .subtract_i(subtract0), .result_o(result0[p*OUT+:OUT])
+        .clk_i, .active_i(job_q != '0), .a_i(a0), .b_i(b0), .c_i(c0), .d_i(d0), .subtract_i(subtract0), .result_o(result0[p*OUT+:OUT])
     );
 
     quadrille_dot_unit u_dot1 (
-        .clk_i, .a_i(a1), .b_i(b1), .c_i(c1), .d_i(d1), .subtract_i(subtract1), .result_o(result1[p*OUT+:OUT])
+        .clk_i, .active_i(job_q != '0), .a_i(a1), .b_i(b1), .c_i(c1), .d_i(d1), .subtract_i(subtract1), .result_o(result1[p*OUT+:OUT])
     );
   end
 endmodule

@@ -35,8 +35,10 @@ EDITS = {
         ("(!run_q || (PAIRS == 1 && run_end))", "!run_q"),
         ("front_row_q, jobs.x, jobs.y, jobs.w};", "front_row_q, (4 * (2 * T + W))'(0)};"),
         ("{4{cornered && !sum_ordinary && !hull}}", "4'b0"),
-        ("setup_linear,\n      setup_ties,", "setup_linear & {{VAL{1'b0}}, {VAL{1'b1}}, {2*VAL{1'b0}}, {2*VAL{1'b1}},\n"
-         "      {2{{GRAD{1'b0}}, {GRAD{1'b1}}, {2*GRAD{1'b0}}, {2*GRAD{1'b1}}}}}, setup_ties & 10'b1001110011,"),
+        ("{lin_value, lin_gx, lin_gy};", "{lin_value, lin_gx, lin_gy} & {{VAL{1'b0}}, {VAL{1'b1}}, {2*VAL{1'b0}}, {2*VAL{1'b1}},\n"
+         "      {2{{GRAD{1'b0}}, {GRAD{1'b1}}, {2*GRAD{1'b0}}, {2*GRAD{1'b1}}}}};"),
+        ("visible, functions}", "visible, functions[10+20*REACH+6*LENGTH2+:6*EDGE_WIDTH],\n"
+         "        functions[20*REACH+6*LENGTH2+:10] & 10'b1001110011, functions[0+:20*REACH+6*LENGTH2]}"),
     ],
     "quadrille_walk_values.sv": [
         ("lin_value_q1[g*VAL+:VAL] <= tile_q;", "lin_value_q1[g*VAL+:VAL] <= (g < 2 || g == 4) ? tile_q : '0;"),
@@ -56,7 +58,7 @@ EDITS = {
     # No squared lengths, dot products, squares, moves.
     "quadrille_vertex_products.sv": [
         ("{apart_x, apart_x, apart_y, apart_y}", "{w_i, x_j, x_i, w_j}"),
-        *((f"        quadrille_pkg::{kind}: begin\n          {{a0, b0, c0, d0}} = {{{first}}};\n          {{a1, b1, c1, d1}} = {{{second}}};\n        end\n", "")
+        *((f"          quadrille_pkg::{kind}: begin\n            {{a0, b0, c0, d0}} <= {{{first}}};\n            {{a1, b1, c1, d1}} <= {{{second}}};\n          end\n", "")
           for kind, first, second in (("DOT", "x_i, x_j, y_i, y_j", "w_i, w_j, y_i, DOT'(0)"), ("DOT_GRADIENT", "x_i, w_j, w_i, x_j", "w_i, y_j, y_i, w_j"),
                                       ("SQUARES", "x_i, x_i, y_i, y_i", "x_j, x_j, y_j, y_j"),
                                       ("MOVE", "x_i, DOT'(1), w_i, DOT'(offset_x)", "y_i, DOT'(1), w_i, DOT'(offset_y)"))),

@@ -35,8 +35,8 @@ struct Tools {
   std::string verilator, compiler;
   std::string verilator_version, compiler_version;
 
-  Tools() {
-    verilator = find_program("verilator", "verilator");
+  explicit Tools(const std::string& program) {
+    verilator = program.empty() ? find_program("verilator", "verilator").string() : fs::absolute(program).string();
     const char* chosen = std::getenv("CXX");
     compiler = find_program(chosen != nullptr && *chosen != '\0' ? chosen : "g++", "g++");
     verilator_version = version_of(verilator);
@@ -212,6 +212,7 @@ std::string description(const Config& config, const VerilateOptions& options) {
   std::string text = summary(config) + (options.probes ? " with probes" : " without probes");
   if (options.trace) text += ", waveforms";
   if (!options.assertions) text += ", no assertions";
+  if (!options.verilator.empty()) text += ", by " + options.verilator;
   if (options.optimise != VerilateOptions{}.optimise) text += ", -O" + std::to_string(options.optimise);
   if (!options.source.empty()) text += ", RTL " + fs::absolute(options.source).string();
   for (const fs::path& file : options.extra) text += ", " + file.filename().string();
@@ -276,7 +277,7 @@ std::string summary(const Config& config) {
 
 Simulator verilate(const Config& config, const VerilateOptions& options) {
   config.validate();
-  const Tools tools;
+  const Tools tools(options.verilator);
   const fs::path glue = glue_directory();
   const std::vector<fs::path> sources = sources_of(options);
   const bool one_file = !options.source.empty() && !fs::is_directory(options.source);
@@ -288,7 +289,7 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
 
   // 1. Everything that decides the result.
   Fingerprint key;
-  key.add("device 2");
+  key.add("device 3");
   key.add(tools.verilator_version);
   key.add(tools.compiler_version);
   for (const std::string& define : key_defines(config)) key.add(define);
@@ -318,14 +319,33 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
 
     // 2. SystemVerilog to C++.
     const std::string top_module = options.probes ? "quadrille_probed" : "quadrille";
-    std::vector<std::string> command{tools.verilator, "--cc",           "--prefix", "Vquadrille",
-                                     "--top-module",  top_module,       "--Mdir",   generated.filename().string(),
-                                     "-O3",           "--x-assign",     "fast",     "--x-initial",
-                                     "unique",        "--output-split", "12000",    "--no-timing"};
+    std::vector<std::string> command{tools.verilator,
+                                     "--cc",
+                                     "--prefix",
+                                     "Vquadrille",
+                                     "--top-module",
+                                     top_module,
+                                     "--Mdir",
+                                     generated.filename().string(),
+                                     "-O3",
+                                     "--x-assign",
+                                     "fast",
+                                     "--x-initial",
+                                     "unique",
+                                     "--output-split",
+                                     "12000",
+                                     "--no-timing",
+                                     "--expand-limit",
+                                     "256"};
     if (options.assertions) command.push_back("--assert");
     command.push_back("-Wall");
     if (!options.source.empty()) command.push_back("-Wno-fatal");  // lint is for the project's own sources
-    if (options.trace) command.push_back("--trace-fst");
+    if (options.trace) {
+      command.push_back("--trace-fst");
+    } else if (!coverage) {  // which both name signals
+      write_text(work / "split.vlt", "`verilator_config\nsplit_var -module \"*\" -var \"*\"\n");
+      command.insert(command.end(), {"-Wno-SPLITVAR", "split.vlt"});
+    }
     if (coverage) command.push_back("--coverage-line");
     if (count_toggles()) command.push_back("--coverage-toggle");
     for (const std::string& define : key_defines(config)) command.push_back(define);

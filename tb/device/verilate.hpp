@@ -25,6 +25,7 @@ struct VerilateOptions {
   std::filesystem::path source;
   /// Further files, read after the others.
   std::vector<std::filesystem::path> extra;
+  std::string verilator;  ///< the program; empty: the one in PATH
   /// Further arguments of Verilator.
   std::vector<std::string> arguments;
 };

@@ -417,7 +417,16 @@ void add_bench_command(CLI::App& app, Invocation& invocation) {
           "--cliffs: each)")
       ->type_name("NAME")
       ->excludes(peers);
-  command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator")->excludes(peers);
+  CLI::Option* no_rtl =
+      command->add_flag("--no-rtl", speed.no_rtl, "Without the RTL; needs no Verilator")->excludes(peers);
+  command->add_option("--verilator", speed.verilator, "A second Verilator that simulates the RTL alone too")
+      ->check(CLI::ExistingFile)
+      ->excludes(no_rtl)
+      ->excludes(error)
+      ->excludes(skips)
+      ->excludes(peers)
+      ->excludes(cliffs)
+      ->excludes(meshes);
   CLI::Option* size = command->get_option("--size");
   size->excludes(cliffs);
   size->default_str("512x512; --error: 128x128; --skips: 256x256; --meshes: 640x480; --peers: 1920x1080");

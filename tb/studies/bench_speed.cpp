@@ -9,6 +9,7 @@
 #include "model/support/parallel.hpp"
 #include "model/untimed.hpp"
 #include "tb/commands/counters_report.hpp"
+#include "tb/device/verilate.hpp"
 #include "tb/judge/check.hpp"
 #include "tb/lockstep/lockstep.hpp"
 #include "tb/studies/bench_timing.hpp"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace quadrille::tb {
 namespace {
@@ -76,6 +78,12 @@ class SpeedBench {
                             return Measure{r.fragments, r.cycles_rtl, r.wall_seconds};
                           }});
       subjects.push_back({"cosim", "the same with every fragment against the truth", [this] { return cosim(); }});
+    }
+    std::optional<Simulator> other;
+    if (!options_.verilator.empty()) {
+      other = verilate(config_, {.probes = false, .verilator = options_.verilator});
+      subjects.push_back({"rtl-verilator", "RTL alone, by the other Verilator",
+                          [&] { return from(run_rtl_alone(*other, snapped_, lockstep())); }});
     }
     measure(subjects);
     print(subjects, arguments);

@@ -14,6 +14,7 @@ struct SpeedOptions {
   int repeat = 5, quad_size = 64;
   std::uint64_t fragments = 2'000'000;
   bool no_rtl = false;
+  std::string verilator;  ///< a second one for the RTL alone
 };
 
 /// Returns the exit status.

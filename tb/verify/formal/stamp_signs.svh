@@ -38,7 +38,7 @@
 
     always_comb begin
       assume (value[WIDER-1:VAL-1] == '0 || value[WIDER-1:VAL-1] == '1);
-      assert (is_zero_q2[dx] == zero_q2);
-      assert (is_neg_q2[dx] == neg_q2);
+      assert (!row_valid_q[1] || is_zero_q2[dx] == zero_q2);
+      assert (!row_valid_q[1] || is_neg_q2[dx] == neg_q2);
     end
   end
