@@ -59,8 +59,8 @@ module quadrille_front #(
   quadrille_quad_setup u_setup (
       .clk_i, .rst_ni, .state_i, .held_i(full && !drop_vertices), .start_i(start_o), .ready_o(setup_ready),
       .empty_i(empty), .slot_i(start_slot_o), .quad_i(quad_o), .wait_i(jobs_valid_i),
-      .jobs_valid_o(setup_jobs_valid), .jobs_o(setup_jobs), .edges_o(edges), .products_i(products_o), .valid_o(setup_valid_o), .take_i, .setup_o, .drop_o(drop),
-      .drop_slot_o(drop_slot), .events_o(setup_events)
+      .jobs_valid_o(setup_jobs_valid), .jobs_o(setup_jobs), .edges_o(edges), .products_i(products_o),
+      .valid_o(setup_valid_o), .take_i, .setup_o, .drop_o(drop), .drop_slot_o(drop_slot), .events_o(setup_events)
   );
 
   quadrille_vertex_products u_products (

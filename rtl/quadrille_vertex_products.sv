@@ -145,11 +145,13 @@ module quadrille_vertex_products #(
     end
 
     quadrille_dot_unit u_dot0 (
-        .clk_i, .active_i(job_q != '0), .a_i(a0), .b_i(b0), .c_i(c0), .d_i(d0), .subtract_i(subtract0), .result_o(result0[p*OUT+:OUT])
+        .clk_i, .active_i(job_q != '0), .a_i(a0), .b_i(b0), .c_i(c0), .d_i(d0), .subtract_i(subtract0),
+        .result_o(result0[p*OUT+:OUT])
     );
 
     quadrille_dot_unit u_dot1 (
-        .clk_i, .active_i(job_q != '0), .a_i(a1), .b_i(b1), .c_i(c1), .d_i(d1), .subtract_i(subtract1), .result_o(result1[p*OUT+:OUT])
+        .clk_i, .active_i(job_q != '0), .a_i(a1), .b_i(b1), .c_i(c1), .d_i(d1), .subtract_i(subtract1),
+        .result_o(result1[p*OUT+:OUT])
     );
   end
 endmodule
