@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole product of two significands, each with its top bit set or 0. Exact, combinational.
 //
-// Up to BLOCK bits one multiplier does it, the width of a DSP block. Of wider significands the block takes BLOCK bits behind the leading
-// one, and adders take the LOW bits below them (small_multiply), which would take three blocks more:
+// Up to BLOCK bits one multiplier does it, the width of a DSP block. Of wider significands the block takes BLOCK bits
+// behind the leading one, and adders take the LOW bits below them (small_multiply), which would take three blocks more:
 //
 //     a = 2^R + a',  a' = ah 2^LOW + al,  b alike,  R = S - 1
 //     a b = 2^(2R) + (a' + b') 2^R + ah bh 2^(2 LOW) + (al bh 2^LOW + a' bl)
 //
-// No sum goes whole into another sum: Yosys would make carry-save adders of the three summands, two LUTs a bit where a carry chain takes
-// one.
+// No sum goes whole into another sum: Yosys would make carry-save adders of the three summands, two LUTs a bit where a
+// carry chain takes one.
 module quadrille_significand_product #(
     parameter int S = quadrille_pkg::SIGNIFICAND_BITS,
     parameter int BLOCK = 18
@@ -32,7 +32,7 @@ module quadrille_significand_product #(
     assign a_high = a_rest[R-1-:BLOCK];
     assign b_high = b_rest[R-1-:BLOCK];
 
-    // ---- Block and leading ones ------------------------------------------------------------------------------------------------
+    // ---- Block and leading ones -------------------------------------------------------------------------------------
     logic [2*BLOCK-1:0] block;
     logic [R:0] ones;
     logic [S:0] upper;  // from 2^R on
@@ -41,7 +41,7 @@ module quadrille_significand_product #(
     assign ones = {1'b0, a_rest} + {1'b0, b_rest};
     assign upper = {2'b01 + {1'b0, ones[R]}, ones[R-1:0]} + (S + 1)'(block >> (R - 2 * LOW));
 
-    // ---- Strips ----------------------------------------------------------------------------------------------------------------
+    // ---- Strips -----------------------------------------------------------------------------------------------------
     if (LOW == 0) begin : gen_none
       assign product_o = nonzero ? {upper, block[R-1:0]} : '0;
     end else begin : gen_some
@@ -88,8 +88,10 @@ module quadrille_significand_product #(
       end
 
       // {x, 1} + {y, carry} is an adder whose carry-in is used.
-      assign strips = (R + LOW + 2)'(({(R + LOW + 2)'($signed(a_strip)), 1'b1} + {(R + 2)'($signed(b_strip)), LOW'(0), a_carry}) >> 1);
-      assign joined = (2 * S - LOW)'(({upper, block[R-2*LOW-1:0], LOW'(0), 1'b1} + {(2 * S - LOW)'($signed(strips[R+LOW+1:LOW])), b_carry}) >> 1);
+      assign strips = (R + LOW + 2)'((
+          {(R + LOW + 2)'($signed(a_strip)), 1'b1} + {(R + 2)'($signed(b_strip)), LOW'(0), a_carry}) >> 1);
+      assign joined = (2 * S - LOW)'((
+          {upper, block[R-2*LOW-1:0], LOW'(0), 1'b1} + {(2 * S - LOW)'($signed(strips[R+LOW+1:LOW])), b_carry}) >> 1);
       assign product_o = nonzero ? {joined, strips[LOW-1:0]} : '0;
     end
   end

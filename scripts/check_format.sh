@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fails when a C++ file is not formatted as .clang-format says. `scripts/check_format.sh --fix` formats instead.
+# Fails when a C++ file is not formatted as .clang-format says, or a line of RTL exceeds 120 columns. `scripts/check_format.sh --fix` formats instead.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mapfile -t files < <(find model golden tb -name '*.cpp' -o -name '*.hpp' -o -name '*.h' | sort)
@@ -7,6 +7,7 @@ mapfile -t files < <(find model golden tb -name '*.cpp' -o -name '*.hpp' -o -nam
 if [ "${1:-}" = --fix ]; then
   clang-format -i "${files[@]}"
 else
+  if LC_ALL=C.UTF-8 grep -nE '^.{121,}' rtl/*.sv rtl/*/*.sv rtl/include/*; then echo "more than 120 columns" >&2; exit 1; fi
   clang-format --dry-run -Werror "${files[@]}"
   echo "${#files[@]} files are formatted"
 fi
