@@ -81,7 +81,10 @@ class SpeedBench {
     }
     std::optional<Simulator> other;
     if (!options_.verilator.empty()) {
-      other = verilate(config_, {.probes = false, .verilator = options_.verilator});
+      VerilateOptions build;
+      build.probes = false;
+      build.verilator = options_.verilator;
+      other = verilate(config_, build);
       subjects.push_back({"rtl-verilator", "RTL alone, by the other Verilator",
                           [&] { return from(run_rtl_alone(*other, snapped_, lockstep())); }});
     }
