@@ -54,7 +54,7 @@ module replay_setup (
   `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup)
   `QUADRILLE_QUAD_T quad;
   `QUADRILLE_STATE_T state;
-  logic drop;
+  logic drop, jobs_valid;
   logic [SLOT-1:0] drop_slot;
   logic [2:0] events;  // of performance_counters
 
@@ -79,6 +79,7 @@ module replay_setup (
       .clk_i,
       .tile_valid_i(1'b0),
       .tile_i(quadrille_pkg::JOBS_BITS'(0)),
+      .setup_valid_i(jobs_valid),
       .setup_i(jobs),
       .edges_i(edges),
       .products_o(products)
@@ -95,6 +96,7 @@ module replay_setup (
       .empty_i(empty_x || empty_y),
       .quad_i(quad),
       .wait_i(1'b0),
+      .jobs_valid_o(jobs_valid),
       .jobs_o(jobs),
       .edges_o(edges),
       .products_i(products),

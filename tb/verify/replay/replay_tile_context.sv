@@ -60,6 +60,7 @@ module replay_tile_context (
       .clk_i,
       .tile_valid_i(job_valid),
       .tile_i(jobs),
+      .setup_valid_i(1'b0),
       .setup_i(quadrille_pkg::JOBS_BITS'(0)),
       .edges_i((PAIRS * (quadrille_pkg::VAL_BITS + 2 * quadrille_pkg::GRAD_BITS))'(0)),
       .products_o(products)
