@@ -98,7 +98,7 @@ module quadrille_quad_setup #(
   // ---- What goes with a quad: slot, tiles, vertices relative to the origin pixel ------------------------------------
   localparam int PLACE = SLOT + 4 * TC + TL + 1 + 4 * (2 * T + W);
   logic front_ordinary_q, sum_ordinary;
-  logic [SLOT-1:0] front_slot_q, done_slot_q;
+  logic [SLOT-1:0] front_slot_q;
   logic [4*TC-1:0] front_tiles_q;
   logic [TL-1:0] front_row_q;
   logic [PLACE-1:0] middle_place_q, sum_place_q;
@@ -117,8 +117,7 @@ module quadrille_quad_setup #(
     end
     if (front_q) middle_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, jobs.x, jobs.y, jobs.w};
     if (advance) sum_place_q <= middle_place_q;
-    if (hand_over) {done_slot_q, setup_o} <= {sum_place_q[PLACE-2-:SLOT], sum_place_q[PLACE-2:0], !sum_ordinary, hull,
-          visible, functions};
+    if (hand_over) setup_o <= {sum_place_q[PLACE-2:0], !sum_ordinary, hull, visible, functions};
   end
 
   // ---- Steps, and what comes of them -------------------------------------------------------------------------------
@@ -265,7 +264,7 @@ module quadrille_quad_setup #(
 
   assign drop_result = done_q && left_out_q;
   assign drop_o = drop_result || drop_summed;
-  assign drop_slot_o = drop_result ? done_slot_q : sum_place_q[PLACE-2-:SLOT];
+  assign drop_slot_o = drop_result ? setup_o[quadrille_pkg::SETUP_BITS-1-:SLOT] : sum_place_q[PLACE-2-:SLOT];
   assign valid_o = done_q && !left_out_q;
 
 `ifndef SYNTHESIS

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bundles of the machine: packed structs, first member most significant. Between modules a bundle is a flat vector
 // of quadrille_pkg::<NAME>_BITS: Icarus Verilog reads no struct of a package, Yosys no struct at a port.
-// `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup) makes the struct `setup` of the port setup_i.
+// `QUADRILLE_IN(`QUADRILLE_SETUP_T, setup) makes the struct `setup` of the port setup_i. A clocked block takes a member
+// through a wire: else Verilator packs the whole bundle in every clock.
 `ifndef QUADRILLE_TYPES_SVH
 `define QUADRILLE_TYPES_SVH
 
