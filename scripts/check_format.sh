@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Fails when a C++ file is not formatted as .clang-format says, or a line of RTL exceeds 120 columns. `scripts/check_format.sh --fix` formats instead.
+# Fails when a C++ file is not formatted as .clang-format says, or a line of RTL exceeds 120 columns.
+# `scripts/check_format.sh --fix` formats the C++ files instead.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mapfile -t files < <(find model golden tb -name '*.cpp' -o -name '*.hpp' -o -name '*.h' | sort)

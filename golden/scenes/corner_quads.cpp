@@ -118,9 +118,7 @@ CornerGroup parse_corner_group(std::string_view name) {
 
 std::vector<WindowQuad> make_corner(CornerGroup group, const Config& config, const DrawState& state, std::uint64_t seed,
                                     int attributes) {
-  if (attributes < 0 || attributes > max_attribute_slots)
-    throw std::invalid_argument("corner group: " + std::to_string(attributes) + " attributes (0 to " +
-                                std::to_string(max_attribute_slots) + ")");
+  check_attributes("corner group", attributes, max_attribute_slots);
   constexpr std::uint64_t first_stream = 100;
   Batch batch{Prng(seed, first_stream + static_cast<std::uint64_t>(group)), config, state};
   generators[static_cast<std::size_t>(group)].make(batch);

@@ -137,10 +137,7 @@ StressFamily parse_stress_family(std::string_view name) {
 std::vector<WindowQuad> make_stress(StressFamily family, std::size_t count, std::uint64_t seed, double knob, int width,
                                     int height, int attributes) {
   stress::check_arguments(knob, width, height);
-  if (attributes < 0 || attributes > max_attribute_slots) {
-    throw std::invalid_argument("stress: " + std::to_string(attributes) + " attributes (0 to " +
-                                std::to_string(max_attribute_slots) + ")");
-  }
+  check_attributes("stress", attributes, max_attribute_slots);
   const std::size_t index = static_cast<std::size_t>(family);
   const std::uint64_t own_seed =
       Prng(seed ^ ((index + 1) * 0xd1342543de82ef95u)).next();  // one sequence per family and seed
@@ -173,10 +170,8 @@ WindowQuad draw_stress(StressFamily family, StressDrawing& drawing, int width, i
 
 std::vector<WindowQuad> make_stress_without_weights(StressFamily family, std::size_t count, std::uint64_t seed,
                                                     int width, int height, int attributes, double knob) {
-  constexpr int weights = 4, most = max_attribute_slots - weights;
-  if (attributes < 0 || attributes > most)
-    throw std::invalid_argument("stress: " + std::to_string(attributes) + " attributes (0 to " + std::to_string(most) +
-                                ")");
+  constexpr int weights = 4;
+  check_attributes("stress", attributes, max_attribute_slots - weights);
   std::vector<WindowQuad> quads = make_stress(family, count, seed, knob, width, height, weights + attributes);
   for (WindowQuad& quad : quads)
     for (std::vector<double>& attribute : quad.attribute)

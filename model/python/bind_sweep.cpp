@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <future>
 #include <utility>
 
@@ -36,11 +35,12 @@ sweep::SweepInput input_of(const Quads& quads, const DrawState& state) {
   return {quads.quads, static_cast<int>(quads.attributes.size()), state};
 }
 
-/// Calls work(stop) on a thread of its own, without the interpreter's lock; Ctrl-C asks it to end.
-void end_on_interrupt(const std::function<void(sweep::Stop)>& work) {
+/// The result of work(stop), called on a thread of its own, without the interpreter's lock; Ctrl-C asks it to end.
+template <class Work>
+auto end_on_interrupt(const Work& work) {
   const nb::gil_scoped_release released;
   std::atomic<bool> stop{false};
-  std::future<void> end = std::async(std::launch::async, work, sweep::Stop{&stop});
+  auto end = std::async(std::launch::async, work, sweep::Stop{&stop});
   Interruptible interruptible;
   while (end.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) try {
       interruptible();
@@ -49,7 +49,7 @@ void end_on_interrupt(const std::function<void(sweep::Stop)>& work) {
       end.wait();
       throw;
     }
-  end.get();
+  return end.get();
 }
 
 /// The text of points.csv, without `worst`.
@@ -93,18 +93,16 @@ std::string table_of(const Quads& quads, const std::vector<std::string>& axes, c
 
 std::string swept(const Quads& quads, const std::vector<std::string>& axes, const Config& base, const DrawState& state,
                   bool one_at_a_time, bool cycles, const std::string& objective, unsigned threads) {
-  std::string table;
-  end_on_interrupt([&](sweep::Stop stop) {
-    table = table_of(quads, axes, base, state, one_at_a_time, cycles, objective, threads, stop);
+  return end_on_interrupt([&](sweep::Stop stop) {
+    return table_of(quads, axes, base, state, one_at_a_time, cycles, objective, threads, stop);
   });
-  return table;
 }
 
 nb::ndarray<nb::numpy, float> error_map(const Quads& quads, const Config& config, const DrawState& state,
                                         unsigned threads) {
   auto* const values = new std::vector<float>;
   const nb::capsule owner(values, [](void* p) noexcept { delete static_cast<std::vector<float>*>(p); });
-  end_on_interrupt([&](sweep::Stop stop) {
+  *values = end_on_interrupt([&](sweep::Stop stop) {
     const sweep::SweepInput input = input_of(quads, state);
     sweep::Evaluator evaluator(input, {.threads = threads, .cycles = false, .stop = stop});
     if (const std::string reason = evaluator.refusal(config); !reason.empty()) {
@@ -113,7 +111,7 @@ nb::ndarray<nb::numpy, float> error_map(const Quads& quads, const Config& config
       for (const WindowQuad& quad : quads.quads) static_cast<void>(snap_quad(quad, config, own));  // SnapError first
       throw ConfigError(reason);
     }
-    *values = evaluator.error_map(config);
+    return evaluator.error_map(config);
   });
   return {values->data(), {static_cast<std::size_t>(state.height), static_cast<std::size_t>(state.width)}, owner};
 }

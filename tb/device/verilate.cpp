@@ -319,24 +319,11 @@ Simulator verilate(const Config& config, const VerilateOptions& options) {
 
     // 2. SystemVerilog to C++.
     const std::string top_module = options.probes ? "quadrille_probed" : "quadrille";
-    std::vector<std::string> command{tools.verilator,
-                                     "--cc",
-                                     "--prefix",
-                                     "Vquadrille",
-                                     "--top-module",
-                                     top_module,
-                                     "--Mdir",
-                                     generated.filename().string(),
-                                     "-O3",
-                                     "--x-assign",
-                                     "fast",
-                                     "--x-initial",
-                                     "unique",
-                                     "--output-split",
-                                     "12000",
-                                     "--no-timing",
-                                     "--expand-limit",
-                                     "256"};
+    std::vector<std::string> command{tools.verilator, "--cc",           "--prefix", "Vquadrille",
+                                     "--top-module",  top_module,       "--Mdir",   generated.filename().string(),
+                                     "-O3",           "--x-assign",     "fast",     "--x-initial",
+                                     "unique",        "--output-split", "12000",    "--no-timing"};
+    command.insert(command.end(), {"--expand-limit", "256"});  // wide expressions in words
     if (options.assertions) command.push_back("--assert");
     command.push_back("-Wall");
     if (!options.source.empty()) command.push_back("-Wno-fatal");  // lint is for the project's own sources
