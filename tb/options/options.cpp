@@ -332,7 +332,8 @@ void InputOptions::add_to(CLI::App& app) {
 }
 
 void add_attributes_option(CLI::App& app, std::string& shade) {
-  app.add_option("--shade", shade, "Attributes: uv, texture, normal, planes or colour (default: by input)")
+  app.add_option("--shade", shade,
+                 "Attributes: uv, texture, normal, planes or colour; lambda, depth, quad: none (default: by input)")
       ->type_name("MODE")
       ->group("Input");
 }
