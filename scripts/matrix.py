@@ -209,11 +209,13 @@ def page():
              "| row | versions | result | minutes | commit |", "|---|---|---|---|---|"]
     for name, row in ROWS.items():
         path = os.path.join(OUT, f"{name}.json")
-        if not os.path.exists(path):
+        r = {}
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                r = json.load(file)
+        if not (r.get("done") or r.get("failed")):  # or interrupted in its first command
             lines.append(f"| {row.what} | | not run | | |")
             continue
-        with open(path, encoding="utf-8") as file:
-            r = json.load(file)
         lines.append(f"| {row.what} | {', '.join(r['versions'])} | {outcome(row, r)} | {r['minutes']} | {', '.join(r['commits'])} |")
     return "\n".join([*lines, "<!-- end -->"]) + "\n"
 
