@@ -14,7 +14,7 @@ packages=(
   "${core_packages[@]}"
   make yosys iverilog          # replay of golden vectors, synthesis and round trip
   z3                           # scripts/prove.py
-  opensta qflow-tech-osu018    # scripts/timing.py: static timing, and the standard cells that it times
+  opensta                      # scripts/timing.py: static timing
   libgtest-dev librapidcheck-dev
   pkg-config libcairo2-dev fonts-dejavu-core   # contact sheets of quadrille compare
   libassimp-dev                # meshes in PLY, OFF and glTF
@@ -23,6 +23,8 @@ packages=(
   python3 python3-matplotlib python3-plotly python3-yaml   # scripts/*.py; plots of scripts/sweep_report.py; lists of the RTL's files
   python3-numpy                # the example of the library in Python
 )
+# The standard cells of scripts/timing.py, which Debian 13 lacks: it says so there.
+[ "$(. /etc/os-release && echo "${VERSION_CODENAME:-}")" = trixie ] || packages+=(qflow-tech-osu018)
 
 page_packages=(nodejs chromium python3-venv)   # model/page
 command -v npm >/dev/null || page_packages+=(npm)   # other packages of nodejs bring it
