@@ -98,9 +98,8 @@ def run_row(name, row, resume):
     start = time.monotonic()
     path = os.path.join(OUT, f"{name}.json")
     result = {"versions": [], "done": [], "failed": None, "commits": [], "minutes": 0}
-    if resume and not row.release and os.path.exists(path):
-        with open(path, encoding="utf-8") as file:
-            result |= json.load(file) | {"failed": None}
+    if resume and not row.release:
+        result |= saved(path) | {"failed": None}
     before = result["minutes"]
 
     def save():
@@ -125,6 +124,14 @@ def run_row(name, row, resume):
     passed = not result["failed"]
     print(f"{name}: {'passed' if passed else 'FAILED, see ' + os.path.relpath(log.name)}", flush=True)
     return passed
+
+
+def saved(path):
+    """The result that run_row left there; empty without one."""
+    if not os.path.exists(path):
+        return {}
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
 
 
 class Here:
@@ -208,11 +215,7 @@ def page():
              "`--resume` goes on after what passed.", "", "<!-- matrix.py -->",
              "| row | versions | result | minutes | commit |", "|---|---|---|---|---|"]
     for name, row in ROWS.items():
-        path = os.path.join(OUT, f"{name}.json")
-        r = {}
-        if os.path.exists(path):
-            with open(path, encoding="utf-8") as file:
-                r = json.load(file)
+        r = saved(os.path.join(OUT, f"{name}.json"))
         if not (r.get("done") or r.get("failed")):  # or interrupted in its first command
             lines.append(f"| {row.what} | | not run | | |")
             continue
