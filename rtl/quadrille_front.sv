@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-`include "quadrille_assert.svh"
 `include "quadrille_types.svh"
 // From vertices to quads that are set up: assembly, setup, the multipliers that it shares with tile_context, the quads'
-// slots and their gradients.
+// slots and their gradients. A quad waits for setup in a register of its own, so that the next one's vertices come
+// meanwhile and vertex_ready_o does not depend on setup in the same clock.
 module quadrille_front #(
     localparam int GRAD = quadrille_pkg::GRAD_BITS, SLOT = quadrille_pkg::QUAD_SLOTS_LOG2,
     localparam int PAIRS = quadrille_pkg::PRODUCT_PAIRS
@@ -41,24 +41,35 @@ module quadrille_front #(
 );
   `QUADRILLE_IN(`QUADRILLE_STATE_T, state)
   logic full, empty, behind, outside_depth, drop_vertices, setup_ready, slot_available, drop, setup_jobs_valid;
+  logic assembling, move, waits_q, empty_q;  // quad_o, limits_o, empty_q are of a quad that waits
+  logic [quadrille_pkg::QUAD_BITS-1:0] quad;
+  logic [quadrille_pkg::DEPTH_LIMIT_BITS-1:0] limits;
   logic [SLOT-1:0] drop_slot;
   logic [quadrille_pkg::JOBS_BITS-1:0] setup_jobs;
   logic [PAIRS*(quadrille_pkg::VAL_BITS+2*GRAD)-1:0] edges;
   logic [2:0] setup_events;
   assign drop_vertices = full && state.skip[1] && (empty || behind || outside_depth);
-  assign start_o = full && !drop_vertices && setup_ready && slot_available;
+  assign move = full && !drop_vertices && !waits_q;
+  assign start_o = waits_q && setup_ready && slot_available;
+  assign assembly_busy_o = assembling || waits_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) waits_q <= 1'b0;
+    else waits_q <= move || (waits_q && !start_o);
+    if (move) {quad_o, limits_o, empty_q} <= {quad, limits, empty};
+  end
 
   quadrille_vertex_assembly u_assembly (
-      .clk_i, .rst_ni, .state_i, .vertex_i, .vertex_valid_i, .vertex_ready_o, .flush_i, .start_i(start_o),
-      .drop_i(drop_vertices), .full_o(full), .busy_o(assembly_busy_o), .empty_o(empty), .behind_o(behind),
-      .depth_o(outside_depth), .limits_o, .quad_o
+      .clk_i, .rst_ni, .state_i, .vertex_i, .vertex_valid_i, .vertex_ready_o, .flush_i,
+      .leave_i(move || drop_vertices), .full_o(full), .busy_o(assembling), .empty_o(empty), .behind_o(behind),
+      .depth_o(outside_depth), .limits_o(limits), .quad_o(quad)
   );
 
   quadrille_plane_quad u_plane (.clk_i, .state_i, .quad_i(quad_o), .plane_o);
 
   quadrille_quad_setup u_setup (
-      .clk_i, .rst_ni, .state_i, .held_i(full && !drop_vertices), .start_i(start_o), .ready_o(setup_ready),
-      .empty_i(empty), .slot_i(start_slot_o), .quad_i(quad_o), .wait_i(jobs_valid_i),
+      .clk_i, .rst_ni, .state_i, .held_i(waits_q), .start_i(start_o), .ready_o(setup_ready),
+      .empty_i(empty_q), .slot_i(start_slot_o), .quad_i(quad_o), .wait_i(jobs_valid_i),
       .jobs_valid_o(setup_jobs_valid), .jobs_o(setup_jobs), .edges_o(edges), .products_i(products_o),
       .valid_o(setup_valid_o), .take_i, .setup_o, .drop_o(drop), .drop_slot_o(drop_slot), .events_o(setup_events)
   );
@@ -85,18 +96,8 @@ module quadrille_front #(
     behind,
     drop,
     setup_events,
-    full && !start_o && !drop_vertices,
+    waits_q && !start_o,
     setup_valid_o && !take_i,
     assembly_busy_o
   };
-
-`ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
-    if (rst_ni) begin
-      `QUADRILLE_ASSERT(assert_drop_in_time,
-          !drop_vertices || !setup_ready,
-          "a quad leaves in its first clock, or is not dropped: setup is ready in its third")
-    end
-  end
-`endif
 endmodule

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
 // Whether a quad's values are plane over it, so that any weights give them that reproduce linear functions: areas of
-// triangles in the place of mean value weights (mean_value_weights). Latency 2 from the quad, which vertex_assembly
-// holds at least that long before start.
+// triangles in the place of mean value weights (mean_value_weights). Latency 2 from the quad, which waits at
+// least that long before start.
 //
 // Taken: an ordinary quad that is a parallelogram, V0 + V2 = V1 + V3 exactly, over which each value in use (k with
 // perspective, Z with depth, differences of attributes times k_eff, 0 in vertex 0) is constant along one pair of

@@ -3,7 +3,7 @@
 `include "quadrille_types.svh"
 // Setup of one quad: origin tile, 6 linear functions (value at the origin, first differences), squared lengths of its
 // sides and diagonals, visibility of the clauses. SPEC.md has the clocks: two for the bounding box, while
-// vertex_assembly holds the quad; start; then a step a clock, in which every pair of dot units has a job: 6 steps or,
+// the quad waits; start; then a step a clock, in which every pair of dot units has a job: 6 steps or,
 // of a homogeneous quad, 40; with two pairs 3 or 24. Half of a homogeneous quad's ask whether it misses the scissor
 // (separate_i; else 20 or 11 steps).
 //
@@ -25,7 +25,7 @@ module quadrille_quad_setup #(
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
-    // Quad in: held until start_i, which needs ready_o
+    // Quad in: waits until start_i, which needs ready_o
     input logic held_i, start_i,
     output logic ready_o,
     input logic empty_i,  // no pixel centre inside scissor and bounding box

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-// Bounding box of a quad and its tiles, while vertex_assembly holds the quad: clamped in the first clock, its tiles in
+// Bounding box of a quad and its tiles, while the quad waits: clamped in the first clock, its tiles in
 // the second. An empty one has zero tiles.
 module quadrille_setup_box #(
     localparam int TC = quadrille_pkg::TC_BITS, TL = quadrille_pkg::TILE_LOG2

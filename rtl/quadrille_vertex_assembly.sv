@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until start_i or drop_i
-// clears it, in whose clock the next quad's first beat is taken. flush_i discards the beats of a quad of which fewer
-// than four came before, and one that comes with it.
+// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until leave_i clears it,
+// in whose clock the next quad's first beat is taken. flush_i discards the beats of a quad of which fewer than four came
+// before, and one that comes with it.
 //
-// vertex_ready_o depends on registers, start_i and drop_i, not on vertex_valid_i. The quad's id, bases and depth codes
-// are those of v0. Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X
+// vertex_ready_o depends on registers and leave_i, not on vertex_valid_i. The quad's id, bases and depth codes are those
+// of v0. Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X
 // and Y, kept up with each beat; and the judgements of its vertices by quad_reject, range_empty and depth_interval.
 // Vertex i's field is at [i*width +: width] of each flat output; attributes are those of v1, v2, v3, for v0's are the
 // bases.
@@ -19,7 +19,7 @@ module quadrille_vertex_assembly #(
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o,
-    input logic flush_i, start_i, drop_i,
+    input logic flush_i, leave_i,
     output logic full_o, busy_o,
     output logic empty_o,  // no pixel centre inside scissor and bounding box
     output logic behind_o, depth_o,
@@ -43,7 +43,7 @@ module quadrille_vertex_assembly #(
   logic [1:0] count_q;
   logic full_q, accept;
   assign accept = vertex_valid_i && vertex_ready_o;
-  assign vertex_ready_o = !full_q || start_i || drop_i;
+  assign vertex_ready_o = !full_q || leave_i;
   assign full_o = full_q;
   assign quad_o = {id, x, y, w, ordinary, low_x, high_x, low_y, high_y, w_negs, w_exps, w_sigs, k_exp, k_sig, z_neg,
       z_exp, z_sig, attr, base_attr, base_depth, depth_low, depth_high};
@@ -57,7 +57,7 @@ module quadrille_vertex_assembly #(
       if (flush_i) count_q <= 2'd0;
       else if (accept) count_q <= count_q + 2'd1;
       if (accept && count_q == 2'd3 && !flush_i) full_q <= 1'b1;
-      else if (start_i || drop_i) full_q <= 1'b0;
+      else if (leave_i) full_q <= 1'b0;
     end
   end
 

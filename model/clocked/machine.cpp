@@ -69,9 +69,9 @@ struct ClockedModel::Impl {
   // Conditions of this clock, from registered state.
   bool take() const { return setup.ready_for_walk() && walk.ready(); }
   bool start() const {
-    return assembly.full && !assembly.drops() && setup.ready(take(), tile_context.issues()) && slots.available();
+    return assembly.waits && setup.ready(take(), tile_context.issues()) && slots.available();
   }
-  bool vertex_ready() const { return hidden.wiping == 0 && (!assembly.full || start() || assembly.drops()); }
+  bool vertex_ready() const { return hidden.wiping == 0 && assembly.ready(); }
   bool quads_under_way() const { return assembly.busy() || slots.in_use != 0 || !fragments.beats.empty(); }
   bool busy() const { return quads_under_way() || hidden.wiping > 0; }
 
@@ -85,7 +85,7 @@ struct ClockedModel::Impl {
     bound.walk = walk.walk.state() != TileWalk::State::idle;
     bound.walk_behind = setup.ready_for_walk() && !taking;
     bound.setup = setup.busy();
-    bound.setup_behind = assembly.full && !starting && !assembly.drops();
+    bound.setup_behind = assembly.waits && !starting;
     bound.assembly = assembly.busy();
     bound.wipe = hidden.wiping > 0;
     bound.busy = busy();
@@ -95,7 +95,7 @@ struct ClockedModel::Impl {
   void clock(const ClockedInputs& in) {
     if (in.reset) return reset();
     // All conditions first: every unit sees the state before the edge.
-    const bool starting = start(), taking = take(), dropping = assembly.drops();
+    const bool starting = start(), taking = take();
     const bool accept = in.vertex_valid && vertex_ready();
     const bool clearing = in.clear_hidden && !busy();
     const bool units_taken = tile_context.issues();
@@ -139,19 +139,20 @@ struct ClockedModel::Impl {
     }
     const std::uint32_t slot = slots.alloc;
     slots.clock(starting, leaving);
-    setup.clock(assembly.full && !dropping, taking, units_taken);
+    setup.clock(assembly.waits, taking, units_taken);
     if (starting) begin_quad(slot);
-    assembly.clock(in, starting || dropping, accept, context);
+    assembly.clock(in, starting, accept, context);
     if (pipeline.traced()) pipeline.show_probes();
   }
 
   void begin_quad(std::uint32_t slot) {
-    SetupResult result = quad_setup(assembly.quad, context.config, context.state);
+    const SnappedQuad& quad = assembly.waiting.quad;
+    SetupResult result = quad_setup(quad, context.config, context.state);
     result.slot = slot;
     clocked::QuadSlots::Slot& held = slots[slot];
-    held.quad = assembly.number;
-    held.depth = depth_interval(assembly.quad, context.config, context.state);
-    held.data = quad_data(assembly.quad, result, context.config, context.state);
+    held.quad = assembly.waiting.number;
+    held.depth = depth_interval(quad, context.config, context.state);
+    held.data = quad_data(quad, result, context.config, context.state);
     if (!pipeline.traced()) emit.ahead.take(result, held);
     setup.start(result, context.state);
   }

@@ -20,7 +20,7 @@ struct QuadSetup {
   };
 
   int pairs = 1;        ///< of dot units
-  int box = 0;          ///< clocks of the bounding box, of the quad in vertex_assembly: 2 when it is there
+  int box = 0;          ///< clocks of the bounding box, of the quad that waits: 2 when it is there
   int all_steps = 0;    ///< of the quad that does them
   int steps = 0;        ///< left to do
   bool front = false;   ///< `next` has started; then it goes to the middle, which is free
@@ -61,7 +61,7 @@ struct QuadSetup {
     return box == 2 && run_over && alone && (!(sum || middle) || !done || gone);
   }
 
-  /// The edge; start() comes after it. `held`: vertex_assembly has a quad.
+  /// The edge; start() comes after it. `held`: a quad waits.
   void clock(bool held, bool taken, bool units_taken) {
     const bool left_out = drops_summed();
     const bool gone = taken || drops_result();

@@ -13,7 +13,7 @@ struct QuadSlots {
   /// The back half's data and the front half's constants.
   struct Slot : PixelQuad {
     DepthInterval depth;
-    std::size_t quad = 0;  ///< VertexAssembly::number
+    std::size_t quad = 0;  ///< NumberedQuad::number
   };
 
   std::vector<Slot> slots;

@@ -7,37 +7,49 @@
 
 namespace quadrille::clocked {
 
-/// Four beats make a quad.
-struct VertexAssembly {
+/// A quad, and its number: those before it.
+struct NumberedQuad {
   SnappedQuad quad;
-  std::size_t number = 0;  ///< of the quad: those before it
+  std::size_t number = 0;
+};
+
+/// Four beats make a quad, which then waits for setup while the next one's come.
+struct VertexAssembly : NumberedQuad {
   int count = 0;
   bool full = false;
   QuadReject reject = QuadReject::none;  ///< by the vertices, once full
+  bool waits = false;                    ///< `waiting` has not started
+  NumberedQuad waiting;
 
   void reset() {
     number = 0;
     count = 0;
-    full = false;
+    full = waits = false;
   }
-  bool busy() const { return full || count != 0; }
+  bool busy() const { return full || count != 0 || waits; }
   /// The quad is left out in this clock.
   bool drops() const { return full && reject != QuadReject::none; }
+  /// The quad begins to wait in the next clock.
+  bool moves() const { return full && reject == QuadReject::none && !waits; }
+  bool ready() const { return !full || drops() || moves(); }
 
   void count_quads(PerformanceCounters& to, bool starting, const PipelineContext& c) const {
     using enum PerformanceCounter;
     to[quads] += starting || drops();
     if (drops())
       ++to[reject == QuadReject::empty ? quads_empty : reject == QuadReject::behind ? quads_behind : quads_depth];
-    to[quads_plane] += starting && plane_quad(quad, c.config, c.state);
+    to[quads_plane] += starting && plane_quad(waiting.quad, c.config, c.state);
   }
 
-  /// The edge. `leaves`: the quad starts or is left out; `accept`: the beat is taken.
-  void clock(const ClockedInputs& in, bool leaves, bool accept, const PipelineContext& c) {
-    if (leaves) {
+  /// The edge. `starts`: the waiting quad; `accept`: the beat is taken.
+  void clock(const ClockedInputs& in, bool starts, bool accept, const PipelineContext& c) {
+    const bool moving = moves();
+    if (moving) waiting = *this;
+    if (moving || drops()) {
       full = false;
       ++number;
     }
+    waits = moving || (waits && !starts);
     if (in.flush) {
       count = 0;
     } else if (accept) {

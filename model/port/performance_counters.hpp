@@ -124,8 +124,8 @@ struct BoundInputs {
   bool walk = false;          ///< the walk has a quad
   bool walk_behind = false;   ///< a complete quad waits for it
   bool setup = false;         ///< setup has a quad
-  bool setup_behind = false;  ///< a quad in vertex_assembly waits for setup or a slot
-  bool assembly = false;      ///< vertex_assembly holds vertices
+  bool setup_behind = false;  ///< a quad waits for setup or a slot
+  bool assembly = false;      ///< vertices or a quad are in front of setup
   bool wipe = false;          ///< hierarchical_z wipes places: after reset, or a clear
   bool busy = false;
 };

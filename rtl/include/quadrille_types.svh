@@ -35,7 +35,7 @@
     logic [quadrille_pkg::CORNER_DEPTH_BITS-1:0] depth_low, depth_high; \
   }
 
-// The quad that vertex_assembly holds: of four vertices, vertex 0 at the low end; attr of vertices 1 to 3.
+// The quad of vertex_assembly: of four vertices, vertex 0 at the low end; attr of vertices 1 to 3.
 `define QUADRILLE_QUAD_T struct packed { \
     logic [quadrille_pkg::QUAD_ID_BITS-1:0] id; \
     logic [4*quadrille_pkg::T_BITS-1:0] x, y; \
@@ -205,7 +205,7 @@
     logic output_hull, output_homogeneous; \
   }
 
-// For performance_counters. Setup takes the quad of vertex_assembly, a plane quad; or it is left out, for the first of
+// For performance_counters. Setup takes the quad that waits, a plane quad; or it is left out, for the first of
 // empty and behind that holds, else by its depth; setup leaves a quad out, for it is on a line or culled; the dot
 // units get a job of each pair; setup has a quad, one waits for it or for a slot, or for the walk; vertex_assembly
 // holds vertices.

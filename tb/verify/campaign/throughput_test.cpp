@@ -83,7 +83,7 @@ TEST(Throughput, PixelsPerClock) {
   Config config;
   const std::vector<Load> loads{
       {"64x64 on tiles", squares(100, 64, true, config, 7), {0.999, 1.998, 3.992}},
-      {"8x8 on tiles", squares(1000, 8, true, config, 8), {0.983, 1.933, 3.744}},
+      {"8x8 on tiles", squares(1000, 8, true, config, 8), {0.983, 1.933, 3.743}},
       {"64x64 anywhere", squares(100, 64, false, config, 9), {0.999, 1.960, 3.765}},
       {"8x8 anywhere", squares(1000, 8, false, config, 10), {0.982, 1.731, 2.569}},
       {"32x32 turned", turned_squares(300, config, 1), {0.998, 1.917, 3.488}},
@@ -127,9 +127,9 @@ std::vector<SnappedQuad> small_quads(int count, int tiles, const Config& config,
 }
 
 /// A stream of quads whose pixels take less time than all else. One tile each: eight slots bound it, each in use for a
-/// quad's whole way; of sixteen, two dot units take six clocks for the setup and two for the tile; with four,
-/// vertex_assembly's beats and bounding box bound it. Four tiles each: coverage bounds it, a row a clock down to the
-/// quad's last one, and waits for less than a clock a quad.
+/// quad's whole way; of sixteen, two dot units take six clocks for the setup and two for the tile, with four the slots
+/// bound it. Four tiles each: coverage bounds it, a row a clock down to the quad's last one, and waits for less than a
+/// clock a quad.
 TEST(Throughput, SmallQuads) {
   constexpr int count = 10'000;
   struct Load {

@@ -1,12 +1,12 @@
   // vertex_assembly: four accepted beats are a quad, each with its own vertex, all of its fields and its W as a significand number among them (of the
-  // first vertex no attributes), and id, bases and corner codes of the first beat; the quad is stable until it is taken or dropped; nothing is lost or taken twice; ready whenever there is room, so no deadlock. flush_i discards
+  // first vertex no attributes), and id, bases and corner codes of the first beat; the quad is stable until it is taken; nothing is lost or taken twice; ready whenever there is room, so no deadlock. flush_i discards
   // the beats of a quad that is not full, one that comes with it among them, and nothing of a full one. The judgements of a quad do not change while it is
-  // held: so quad_setup, which is ready in a quad's third clock at the earliest, never starts one that is dropped, which leaves in its first. Of the
+  // held. Of the
   // beats so far: least and greatest X and Y are those of some vertex and none is beyond; ordinary if and only if every W is ONE; behind_o, a
   // judgement of quad_reject, if and only if none is positive. (empty_o: proof range_empty; depth_o and limits_o: proof quad_reject; the interval:
   // proof depth_interval.)
   // By induction, with one vertex of the four chosen freely and kept.
-  // Assumed: reset at the start and no more; start or drop only of a full quad (quadrille: start and drop_vertices have full in them); the draw state does
+  // Assumed: reset at the start and no more; leave_i only of a full quad (quadrille_front: move and drop_vertices have full in them); the draw state does
   // not change (quadrille asserts it).
   logic started_q = 1'b0;
   always_ff @(posedge clk_i) started_q <= 1'b1;
@@ -30,12 +30,12 @@
   logic [STATE-1:0] state_q;
   logic [2:0] after_leave;  // full, and not taken in this clock: 4
 
-  assign after_leave = (start_i || drop_i) ? 3'd0 : held_q;
+  assign after_leave = leave_i ? 3'd0 : held_q;
   assign have = held_q > {1'b0, which};
   assign kept_w = kept_q[2*(PE+S)+1+ATTR+:W];
 
   always_ff @(posedge clk_i) begin
-    stays_q <= rst_ni && full_o && !(start_i || drop_i);
+    stays_q <= rst_ni && full_o && !leave_i;
     judged_q <= {empty_o, behind_o, depth_o};
     state_q <= {state.depth, state.znear, state.zfar, state.scissor_x0, state.scissor_y0, state.scissor_x1, state.scissor_y1};
     if (!rst_ni) begin
@@ -97,12 +97,12 @@
 
   always_comb begin
     if (rst_ni) begin
-      assume (!(start_i || drop_i) || full_o);
+      assume (!leave_i || full_o);
       assume ({state.depth, state.znear, state.zfar, state.scissor_x0, state.scissor_y0, state.scissor_x1, state.scissor_y1} == state_q);
       assert (held_q <= 3'd4);
       assert (full_o == (held_q == 3'd4));
       assert (busy_o == (held_q != 3'd0));
-      assert (vertex_ready_o == (held_q != 3'd4 || start_i || drop_i));
+      assert (vertex_ready_o == (held_q != 3'd4 || leave_i));
       assert (!have || there == kept_q);
       assert (!have || {w_neg_there, w_exp_there, w_sig_there} == {kept_w[W-1], w_exp_spec, w_sig_spec});
       assert (held_q == 3'd0 || {id, base_attr, base_depth, depth_low, depth_high} == of_quad_q);
