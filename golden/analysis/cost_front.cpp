@@ -22,8 +22,10 @@ HardwareCost vertex_assembly(const Widths& w) {
   const int quad = w.ID + w.N * w.AO + w.DB + 1 + 2 * (w.DB + 2) + 3 * w.N * w.WORD;
   // Of W's exponent, -FRAC to 0, and its significand the bits that may differ from another.
   const int w_number = 1 + stages_of(w.FRAC + 1) + 1 + std::min(w.S, w.W - 1);
-  return state(quad + 4 * (vertex + w_number) + 3 + 1 + 4 * w.T) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) +
-         mux(w.W, 2) + fp_normalise(w, w.W, w.PE, false) + quad_reject(w) + 2 * range_empty(w) + control(30);
+  // Held twice: by assembly, and while the quad waits for setup, with its depth limits and whether it is empty.
+  const int held = quad + 4 * (vertex + w_number) + 1 + 4 * w.T;
+  return state(held + 3 + held + w.LIMITS + 2) + 4 * adder(w.T) + zero_test(w.W) + adder(w.W) + mux(w.W, 2) +
+         fp_normalise(w, w.W, w.PE, false) + quad_reject(w) + 2 * range_empty(w) + control(30);
 }
 
 HardwareCost bounding_range(const Widths& w) {

@@ -72,10 +72,10 @@ TEST(Explain, NumbersThatAreKnownByHand) {
   EXPECT_EQ(e.flags, std::vector<std::string>{"tie"});
   for (const char* corner : {"0", "1", "2", "3"}) {
     EXPECT_EQ(number(e, "diff", std::string("R²") + corner).value, 220.5);
-    const Number& r = number(e, "sqrt", std::string("r") + corner);
+    const Number r = number(e, "sqrt", std::string("r") + corner);
     EXPECT_EQ(r.exact_digits, "14.8492424049174980124177316042");    // 21 / sqrt(2)
     EXPECT_LE(std::fabs(r.value - *r.exact), std::ldexp(1.0, -13));  // 18 bits of 14.8
-    const Number& lambda = number(e, "lambda", std::string("λ'") + corner);
+    const Number lambda = number(e, "lambda", std::string("λ'") + corner);
     EXPECT_EQ(lambda.exact, 0.25);
     EXPECT_NEAR(lambda.value, 0.25, std::ldexp(1.0, -15));
     EXPECT_EQ(lambda.given, 0.25);

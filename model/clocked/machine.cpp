@@ -68,9 +68,7 @@ struct ClockedModel::Impl {
 
   // Conditions of this clock, from registered state.
   bool take() const { return setup.ready_for_walk() && walk.ready(); }
-  bool start() const {
-    return assembly.waits && setup.ready(take(), tile_context.issues()) && slots.available();
-  }
+  bool start() const { return assembly.waits && setup.ready(take(), tile_context.issues()) && slots.available(); }
   bool vertex_ready() const { return hidden.wiping == 0 && assembly.ready(); }
   bool quads_under_way() const { return assembly.busy() || slots.in_use != 0 || !fragments.beats.empty(); }
   bool busy() const { return quads_under_way() || hidden.wiping > 0; }
