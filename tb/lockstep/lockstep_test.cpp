@@ -339,6 +339,20 @@ TEST_P(Lockstep, WatchdogEndsARunWithoutProgress) {
   EXPECT_THROW(run_clocked_model_alone(quads, options), WatchdogError);
 }
 
+/// Quads without a fragment walk one after the other, with all vertices in: as many as have a slot.
+TEST_P(Lockstep, WatchdogWaitsForAllSilentWalks) {
+  options.state = DrawState();
+  options.state.width = options.state.height = options.state.scissor_x1 = options.state.scissor_y1 = 512;
+  options.state.skip = 0;
+  quads.assign(12, quads.front());
+  for (SnappedQuad& quad : quads)
+    for (SnappedVertex& v : quad.vertex) v.w = -2 << options.config.frac();  // behind the eye
+  const AloneRun alone = run_clocked_model_alone(quads, options);
+  EXPECT_TRUE(alone.complete);
+  EXPECT_EQ(alone.fragments, 0u);
+  EXPECT_GT(alone.cycles, 10u * 64 * 64 * 8);  // tiles and rows
+}
+
 TEST_P(Lockstep, LimitOfFragments) {
   options.limit_fragments = 100;
   const LockstepReport report = run({});

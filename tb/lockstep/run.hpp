@@ -1,6 +1,7 @@
 // What every run of a machine has, in lockstep or alone: inputs, monitor, watchdog.
 #pragma once
 
+#include "model/front/tile_context.hpp"
 #include "model/port/bit_vector.hpp"
 #include "tb/lockstep/driven_device.hpp"
 #include "tb/lockstep/lockstep.hpp"
@@ -20,11 +21,14 @@ class Watchdog {
  public:
   explicit Watchdog(const LockstepOptions& o) : limit_(o.watchdog) {
     if (limit_ != 0) return;
-    // A homogeneous quad without a fragment walks every tile of the viewport and, with the hierarchy switched off,
-    // every row.
-    const auto tiles = [&](int pixels) { return static_cast<std::uint64_t>(pixels / o.config.tile() + 2); };
-    limit_ =
-        100'000 + 4 * tiles(o.state.width) * tiles(o.state.height) * static_cast<std::uint64_t>(o.config.tile() + 2);
+    // With the skips off each homogeneous quad takes its steps in every tile of the viewport, and its rows, without a
+    // fragment perhaps; so do, one after the other, all that have a slot and the two before setup.
+    const Config& config = o.config;
+    const auto tiles = [&](int pixels) { return static_cast<std::uint64_t>(pixels / config.tile() + 2); };
+    const int clocks =
+        tile_context_last_step(true, config.product_pairs()) + tile_context_result_clocks + config.tile() + 2;
+    limit_ = 100'000 + static_cast<std::uint64_t>(config.quad_slots() + 2) * tiles(o.state.width) *
+                           tiles(o.state.height) * static_cast<std::uint64_t>(clocks);
   }
 
   /// True when the run is to be given up.
