@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until leave_i clears it,
-// in whose clock the next quad's first beat is taken. flush_i discards the beats of a quad of which fewer than four came
-// before, and one that comes with it.
+// Collects four vertex beats v0..v3 into a quad. One beat a clock; a full buffer stops the port until leave_i clears
+// it, in whose clock the next quad's first beat is taken. flush_i discards the beats of a quad of which fewer than four
+// came before, and one that comes with it.
 //
-// vertex_ready_o depends on registers and leave_i, not on vertex_valid_i. The quad's id, bases and depth codes are those
-// of v0. Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X
+// vertex_ready_o depends on registers and leave_i, not on vertex_valid_i. The quad's id, bases and depth codes are
+// those of v0. Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X
 // and Y, kept up with each beat; and the judgements of its vertices by quad_reject, range_empty and depth_interval.
 // Vertex i's field is at [i*width +: width] of each flat output; attributes are those of v1, v2, v3, for v0's are the
 // bases.
