@@ -17,11 +17,7 @@ module quadrille_fp_multiply #(
   logic [2*S-1:0] product;
   logic nonzero;
 
-  quadrille_significand_product u_product (
-      .a_i(a_sig_i),
-      .b_i(b_sig_i),
-      .product_o(product)
-  );
+  quadrille_significand_product u_product (.a_i(a_sig_i), .b_i(b_sig_i), .product_o(product));
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
 
   always_ff @(posedge clk_i) {exp_o, sig_o} <= quadrille_pkg::truncated_product(a_exp_i + b_exp_i, product, nonzero);

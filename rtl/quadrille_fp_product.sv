@@ -19,11 +19,7 @@ module quadrille_fp_product #(
   logic [2*S-1:0] product;
   logic nonzero;
 
-  quadrille_significand_product u_product (
-      .a_i(a_sig_i),
-      .b_i(b_sig_i),
-      .product_o(product)
-  );
+  quadrille_significand_product u_product (.a_i(a_sig_i), .b_i(b_sig_i), .product_o(product));
   assign exp_sum = a_exp_i + b_exp_i;
   assign nonzero = a_sig_i[S-1] && b_sig_i[S-1];
   assign rank_o = quadrille_pkg::exponent_rank(exp_sum, nonzero);

@@ -16,11 +16,7 @@ module quadrille_fp_raw_product #(
 );
   logic [2*S-1:0] product;
 
-  quadrille_significand_product u_product (
-      .a_i(a_sig_i),
-      .b_i(b_sig_i),
-      .product_o(product)
-  );
+  quadrille_significand_product u_product (.a_i(a_sig_i), .b_i(b_sig_i), .product_o(product));
 
   always_ff @(posedge clk_i) begin
     neg_o <= neg_i;

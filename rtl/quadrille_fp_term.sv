@@ -19,11 +19,7 @@ module quadrille_fp_term #(
 );
   logic [2*S-1:0] product;
 
-  quadrille_significand_product u_product (
-      .a_i(a_sig_i),
-      .b_i(b_sig_i),
-      .product_o(product)
-  );
+  quadrille_significand_product u_product (.a_i(a_sig_i), .b_i(b_sig_i), .product_o(product));
 
   assign rank_o = quadrille_pkg::exponent_rank(a_exp_i + b_exp_i, a_sig_i[S-1] && b_sig_i[S-1]);
 

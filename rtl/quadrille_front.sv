@@ -88,16 +88,6 @@ module quadrille_front #(
       .clk_i, .take_i, .setup_i(setup_o), .stamp_load_i, .stamp_slot_i, .edges_o, .emit_slot_i, .emit_gx_o, .emit_gy_o
   );
 
-  assign events_o = {
-    start_o,
-    plane_o,
-    drop_vertices,
-    empty,
-    behind,
-    drop,
-    setup_events,
-    waits_q && !start_o,
-    setup_valid_o && !take_i,
-    assembly_busy_o
-  };
+  assign events_o = {start_o, plane_o, drop_vertices, empty, behind, drop, setup_events, waits_q && !start_o,
+      setup_valid_o && !take_i, assembly_busy_o};
 endmodule

@@ -147,14 +147,7 @@ module quadrille_quad_setup #(
   logic [JOB-1:0] job;
   logic [CLOCKS*JOB-1:0] job_q;
   assign step_done = run_q && !wait_i;
-  assign job = {
-    {5{step_done}} & kind,
-    group,
-    triangle,
-    negated,
-    second,
-    front_ordinary_q
-  };
+  assign job = {{5{step_done}} & kind, group, triangle, negated, second, front_ordinary_q};
   assign {edge_job, gradient_job, det_job, side_job, corner_job, job_group, job_triangle, job_negated, second_job,
       ordinary_job} =
       job_q[CLOCKS*JOB-1-:JOB];

@@ -31,12 +31,8 @@ module quadrille_setup_areas #(
     if (edge_job_i) begin
       area_012_q <= area_012_next;
       area_023_q <= area_023_next;
-      signs_o <= {
-        area_023_next[AREA-1],
-        area_012_next[AREA-1],
-        !area_023_next[AREA-1] && area_023_next != '0,
-        !area_012_next[AREA-1] && area_012_next != '0
-      };
+      signs_o <= {area_023_next[AREA-1], area_012_next[AREA-1], !area_023_next[AREA-1] && area_023_next != '0,
+          !area_012_next[AREA-1] && area_012_next != '0};
     end
   end
 

@@ -59,31 +59,13 @@ module quadrille_significand_product #(
         localparam int DIGITS = LOW / 2 + 1;
         logic [2*DIGITS-1:0] a_digits, b_digits;
 
-        quadrille_radix4_digits #(.NUMBER_BITS(LOW)) u_a_digits (
-            .number_i(a_rest[LOW-1:0]),
-            .digits_o(a_digits)
+        quadrille_radix4_digits #(.NUMBER_BITS(LOW)) u_a_digits (.number_i(a_rest[LOW-1:0]), .digits_o(a_digits));
+        quadrille_radix4_digits #(.NUMBER_BITS(LOW)) u_b_digits (.number_i(b_rest[LOW-1:0]), .digits_o(b_digits));
+        quadrille_small_multiply #(.FACTOR_BITS(R + 1), .NUMBER_BITS(LOW)) u_a_strip (
+            .factor_i({1'b0, a_rest}), .digits_i(b_digits), .product_o(a_strip), .carry_o(a_carry)
         );
-        quadrille_radix4_digits #(.NUMBER_BITS(LOW)) u_b_digits (
-            .number_i(b_rest[LOW-1:0]),
-            .digits_o(b_digits)
-        );
-        quadrille_small_multiply #(
-            .FACTOR_BITS(R + 1),
-            .NUMBER_BITS(LOW)
-        ) u_a_strip (
-            .factor_i({1'b0, a_rest}),
-            .digits_i(b_digits),
-            .product_o(a_strip),
-            .carry_o(a_carry)
-        );
-        quadrille_small_multiply #(
-            .FACTOR_BITS(BLOCK + 1),
-            .NUMBER_BITS(LOW)
-        ) u_b_strip (
-            .factor_i({1'b0, b_high}),
-            .digits_i(a_digits),
-            .product_o(b_strip),
-            .carry_o(b_carry)
+        quadrille_small_multiply #(.FACTOR_BITS(BLOCK + 1), .NUMBER_BITS(LOW)) u_b_strip (
+            .factor_i({1'b0, b_high}), .digits_i(a_digits), .product_o(b_strip), .carry_o(b_carry)
         );
       end
 

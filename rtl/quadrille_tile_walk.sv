@@ -274,18 +274,8 @@ module quadrille_tile_walk #(
     state_q != IDLE
   };
 
-  assign test_o = {
-    go,
-    test_column,
-    test_row,
-    test_block && go,
-    block_column,
-    block_row,
-    block_last_column,
-    block_last_row,
-    tile_q1,
-    covered
-  };
+  assign test_o = {go, test_column, test_row, test_block && go, block_column, block_row, block_last_column,
+      block_last_row, tile_q1, covered};
   assign test_column = (walk_x_q << BLOCK_LOG2) | TC'(tile_x_q);
   assign test_row = (walk_y_q << BLOCK_LOG2) | TC'(tile_y_q);
   assign block_column = block_x_q << BLOCK_LOG2;

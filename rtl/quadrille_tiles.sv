@@ -113,14 +113,6 @@ module quadrille_tiles #(
       .pixels_o(pixels_i), .event_o(head_waits)
   );
 
-  assign events_o = {
-    jobs_valid_o,
-    walk_events,
-    tile_push && !tile_end,
-    coverage_events,
-    stamp_push && !stamp.end_token,
-    head_valid,
-    head_waits,
-    !depths_ready_o
-  };
+  assign events_o = {jobs_valid_o, walk_events, tile_push && !tile_end, coverage_events,
+      stamp_push && !stamp.end_token, head_valid, head_waits, !depths_ready_o};
 endmodule

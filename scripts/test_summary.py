@@ -27,9 +27,11 @@ def entries(report):
 
 
 def skipped(report):
-    """{test: reason} of the tests that GoogleTest says it skipped, whatever entry ran them."""
-    output = "\n".join(text.text or "" for text in xml.etree.ElementTree.parse(report).getroot().iter("system-out"))
-    return {test: reason.strip() for reason, test in re.findall(r": Skipped\n(.*?)\[  SKIPPED \] (\S+) \(", output, re.DOTALL)}
+    """{test: reason} of the entries that ended as skipped, and of the tests that GoogleTest says it skipped, whatever entry ran them."""
+    cases = list(xml.etree.ElementTree.parse(report).getroot().iter("testcase"))
+    output = {case.get("name"): "".join(text.text or "" for text in case.iter("system-out")) for case in cases}
+    return ({case.get("name"): output[case.get("name")].strip() for case in cases if case.find("skipped") is not None}
+            | {test: reason.strip() for reason, test in re.findall(r": Skipped\n(.*?)\[  SKIPPED \] (\S+) \(", "\n".join(output.values()), re.DOTALL)})
 
 
 def left_out(description, report):

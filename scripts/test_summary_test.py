@@ -41,6 +41,12 @@ class Summary(unittest.TestCase):
             self.assertEqual(test_summary.skipped(report(directory, f"<testsuite>{case}{case}</testsuite>")), {"A.b": "no disk"})
             self.assertEqual(test_summary.skipped(report(directory, "<testsuite/>")), {})
 
+    def test_a_skipped_entry_is_named(self):
+        with tempfile.TemporaryDirectory() as directory:
+            case = '<testcase name="format" status="notrun"><skipped message="SKIP_RETURN_CODE=77"/><system-out>no clang-format 14\n</system-out></testcase>'
+            path = report(directory, f'<testsuite>{case}<testcase name="t" status="run"><system-out>fine</system-out></testcase></testsuite>')
+            self.assertEqual(test_summary.skipped(path), {"format": "no clang-format 14"})
+
     def test_what_full_alone_runs(self):
         def entry(name, *command, labels=()):
             return {"name": name, "command": list(command), "properties": [{"name": "LABELS", "value": list(labels)}]}
