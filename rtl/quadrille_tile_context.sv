@@ -70,16 +70,15 @@ module quadrille_tile_context #(
   localparam logic [5:0] LAST_END = 6'd1;
 
   logic active_q, end_q, homogeneous_q;  // homogeneous_q: of the tile
-  logic [5:0] step_q, last_step;
+  logic [5:0] step_q, next_step, last_step;
   logic [TC-1:0] column_q, row_q;
   logic [RING-1:0] entry_q;
-  logic last, load, complete;
+  logic last_q, load, complete;
+  assign next_step = step_q + 6'd1;
   assign last_step = end_q ? LAST_END : homogeneous_q ? LAST_HOMOGENEOUS : LAST_ORDINARY;
-  assign last = step_q == last_step;
-  assign ready_o = !active_q || last;
+  assign ready_o = !active_q || last_q;
   assign load = active_q && step_q == '0;
-  assign job_valid_o = active_q && !end_q && step_q != '0 && (!homogeneous_q || step_q < MOVE_END || step_q >= PRODUCT);
-  assign complete = active_q && last;
+  assign complete = active_q && last_q;
 
   logic [2:0] kind;
   logic [3:0] first_function, next_function;  // of the first pair of units, and how far from it the second's
@@ -111,19 +110,23 @@ module quadrille_tile_context #(
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       active_q <= 1'b0;
+      job_valid_o <= 1'b0;
     end else begin
       if (push_i) active_q <= 1'b1;
-      else if (last) active_q <= 1'b0;
+      else if (last_q) active_q <= 1'b0;
+      job_valid_o <= active_q && !end_q && !last_q && (!homogeneous_q || next_step < MOVE_END || next_step >= PRODUCT);
     end
   end
 
+  // last_q and job_valid_o are registers, for the handshakes of walk and setup begin with them.
   always_ff @(posedge clk_i) begin
+    last_q <= !push_i && next_step == last_step;
     if (push_i) begin
       step_q <= '0;
       {end_q, homogeneous_q, column_q, row_q, entry_q} <= {end_i, homogeneous_o && !end_i, tile.column, tile.row,
           entry_i};
     end else begin
-      step_q <= step_q + 6'd1;
+      step_q <= next_step;
     end
   end
 

@@ -60,8 +60,8 @@ inline int blocks_of(int width, int words) {
   return fewest;
 }
 /// Words of `width` bits. Up to 32 of them are in small RAMs of 16 words, six LUTs for four bits, with a copy for each
-/// read port, or in registers where those are fewer than the LUTs that hold bits; more words (which have one port) are
-/// in block RAM, where a word written and read in one clock goes around it.
+/// read port; more words (which have one port) are in block RAM, where a word written and read in one clock goes around
+/// it.
 inline HardwareCost memory(int width, int words, int ports) {
   HardwareCost cost{.state_bits = u(width * words), .memory_bits = u(width * words)};
   if (words > 32) {
@@ -69,7 +69,6 @@ inline HardwareCost memory(int width, int words, int ports) {
     return cost + state(width + 1) + mux(width, 2);
   }
   const int blocks = (words + 15) / 16;
-  if (width * words <= ports * blocks * 4 * ((width + 3) / 4)) return state(width * words) + ports * mux(width, words);
   return cost + ports * (blocks * adder(6 * ((width + 3) / 4)) + mux(width, blocks));
 }
 /// Words of `width` bits in block RAM by demand, with the register in which a read ends.

@@ -124,12 +124,10 @@ HardwareCost fragment_output(const Widths& w, const Config& c) {
 }
 
 HardwareCost fragment_fifo(const Widths& w) {
-  // A word is the fragments of a clock and, of several lanes, which of them there are.
-  const int places = fragment_places(), word = w.P * w.FRAGMENT;
-  HardwareCost cost =
-      memory(word, 1 << places, 1) + state(3 * places + 1 + 3 + word) + adder(4 * places) + mux(word, 2) + control(55);
-  if (w.P > 1) cost += memory(w.P, 1 << places, 1) + state(w.P) + mux(w.P, 2);
-  return cost;
+  // A word is the fragments of a clock, and which of them there are.
+  const int places = fragment_places();
+  return block_memory(w.P * (1 + w.FRAGMENT), 1 << places) + state(3 * places + 1 + 3) + adder(4 * places) +
+         control(55);
 }
 
 /// Of a lane: areas in the place of r; around the products of the weights.

@@ -34,7 +34,7 @@ struct HardwareCost {
 /// multipliers are DSP blocks or logic, never both. The defaults are those of an ECP5 with DSP blocks. Given in a
 /// configuration file as the table [cost].
 struct CostWeights {
-  double state = 0.001, multiplier = 0, adder = 1, table = 0.105, dsp = 536, join = 0.954, block_ram = 402;
+  double state = 0.001, multiplier = 0, adder = 1, table = 0.106, dsp = 536, join = 1.26, block_ram = 402;
 
   friend bool operator==(const CostWeights&, const CostWeights&) = default;
 };
@@ -45,7 +45,7 @@ inline constexpr CostWeights ecp5_weights{};
 /// The same with multipliers in logic: all in one number. A fit to synthesis (README.md, "Hardware cost"), save state:
 /// a flip-flop sits beside a LUT and takes none, but it is not free.
 inline constexpr CostWeights ecp5_nodsp_weights{
-    .state = 0.001, .multiplier = 2.73, .adder = 1, .table = 0.105, .dsp = 0, .join = 0, .block_ram = 402};
+    .state = 0.001, .multiplier = 2.73, .adder = 1, .table = 0.106, .dsp = 0, .join = 0, .block_ram = 402};
 
 struct ModuleCost {
   std::string module;  ///< name in rtl/
