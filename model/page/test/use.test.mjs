@@ -327,8 +327,12 @@ test("dragging draws as many pictures as the processor allows", async () => {
   await page.mouse.down();
   const drag = async (milliseconds) => {
     const end = Date.now() + milliseconds, first = await page.evaluate(() => window.quadrille.frames());
-    for (let step = 0; Date.now() < end; step++)
-      await page.mouse.move(box.x + (x + 20 * Math.sin(step / 5)) * scale, box.y + y * scale);
+    const moves = [];
+    for (let step = 0; Date.now() < end; step++) {  // one a frame of the screen; a mouse waits for no picture
+      moves.push(page.mouse.move(box.x + (x + 20 * Math.sin(step / 12)) * scale, box.y + y * scale));
+      await new Promise((done) => setTimeout(done, 16));
+    }
+    await Promise.all(moves);
     await drawn(page);
     return (await page.evaluate(() => window.quadrille.frames())) - first;
   };
