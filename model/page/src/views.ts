@@ -68,6 +68,7 @@ export function legend(view: string, result: Record<string, unknown>): [string, 
       ];
     }
     default: {
+      if (result.fragments === 0) return [["", "Nothing is drawn: no pixel is covered by this method."]];
       const undefined_count = result.undefined as number;
       return undefined_count > 0
         ? [["#ff00ff", `the formulas divide by zero: ${undefined_count.toLocaleString("en")} pixels`]]
