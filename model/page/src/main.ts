@@ -68,7 +68,10 @@ function show_drawn(answer: Answer, text: string, last: boolean) {
   told = performance.now();
   element("rate").textContent = `${answer.time.toFixed(0)} ms, ${drawn.stats.fragments.toLocaleString("en")} fragments`;
   show_stats(element("stats"), drawn);
-  element<HTMLSelectElement>("shade").value = drawn.shade;
+  const shade = element<HTMLSelectElement>("shade");
+  for (const option of shade.options)
+    option.disabled = (option.value === "planes" && !drawn.planes) || (option.value === "colour" && !drawn.colours);
+  shade.value = drawn.shade;
   element<HTMLSelectElement>("texture").value = drawn.texture;
   element<HTMLInputElement>("perspective").checked = drawn.perspective;
   element<HTMLSelectElement>("cull").value = drawn.cull;
@@ -314,7 +317,7 @@ function listen() {
   on_click("copy_link", () => copy(location.href.replace(/#.*/, "") + state_text(state), "Link"));
   on_click("copy_command", async () => {
     if (!drawn) return;  // the error that stands there says why
-    const note = colours_differ(state, drawn) ? " It draws the same fragments, with a texture and light of the program's own." : "";
+    const note = colours_differ(state, drawn) ? " It draws the same fragments, in colours of the program's own." : "";
     await copy(command_line(state, drawn, drawn.is_scene ? "" : await quads_text()), "Command", note);
   });
   on_click("save_png", () => canvas.toBlob((blob) => save("page.png", blob!, "image/png")));

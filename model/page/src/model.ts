@@ -73,6 +73,9 @@ export interface Drawn {
   texture: string;
   perspective: boolean;
   cull: string;
+  /** What only some scenes have to shade. */
+  planes: boolean;
+  colours: boolean;
   is_scene: boolean;
   quads: number;
   matrix: number[];

@@ -120,10 +120,10 @@ export function toml_text(state: State): string {
     .join("");
 }
 
-/** The command draws the same fragments, but the program has neither the page's textures nor the light of a turned mesh. */
+/** The command draws the same fragments, but a file of quads has neither texture nor light, planes or colours. */
 export function colours_differ(state: State, drawn: Drawn): boolean {
   if (drawn.is_scene) return drawn.shade === "texture" && state.values.has("texture");
-  return ["normal", "planes"].includes(drawn.shade) || (drawn.shade === "texture" && drawn.texture !== "checker");
+  return ["normal", "planes", "colour"].includes(drawn.shade) || (drawn.shade === "texture" && drawn.texture !== "checker");
 }
 
 /** How the program draws the same fragments. `quads`: a file's text where no scene of the program has them. */

@@ -33,6 +33,7 @@ const states = [
   ["#scene=fig10_convex&v2=0.9,1.1,3.8", true],  // partly in front of the near plane
   ["#scene=fig10_concave&shade=depth", true],
   ["#scene=fig10_concave&texture=grid", false],
+  ["#scene=bloomenthal10_a&yaw=9", false],
   ["#scene=sphere&yaw=20&pitch=35&dolly=0.5", false],
   ["#scene=phong_mesh_smooth&yaw=-40&cull=front&significand_bits=14", false],
 ];
@@ -65,7 +66,7 @@ const download = async (page, id) => {
 for (const [hash, same_picture] of states)
   test(`the command of ${hash} draws the same`, async () => {
     const { page, problems, close } = await open(browser, server.address, `${hash}&view=`);
-    const note = same_picture ? "" : " It draws the same fragments, with a texture and light of the program's own.";
+    const note = same_picture ? "" : " It draws the same fragments, in colours of the program's own.";
     const command = await click(page, "copy_command", `Command copied.${note}`);
     const shell = (text) =>
       run("bash", ["-euc", text], { cwd: folder, maxBuffer: 2 ** 30, env: { ...process.env, PATH: `${dirname(program)}:${process.env.PATH}` } });

@@ -140,6 +140,15 @@ test("a texture that is chosen is seen", async () => {
   assert.equal(await page.inputValue("#shade"), "texture");
 });
 
+test("a shading is offered where the scene has what it shades", async () => {
+  const offered = () => page.$$eval("#shade option:enabled", (all) => all.map((o) => o.value).filter((v) => ["planes", "colour"].includes(v)));
+  for (const [scene, shades] of [["fig10_convex", []], ["fig6_cuts", ["planes"]], ["bloomenthal10_a", ["colour"]]]) {
+    await page.selectOption("#scene", scene);
+    await drawn(page);
+    assert.deepEqual(await offered(), shades, scene);
+  }
+});
+
 test("nothing stands beside the machine's picture, and something again", async () => {
   assert.equal(await page.isVisible("#beside"), false);
   await page.selectOption("#view", "exact");
