@@ -97,9 +97,10 @@ export class Sliders {
       input.id = `key_${name}`;
       input.min = String(key.minimum);
       input.max = String(key.maximum);
-      input.addEventListener("input", () =>
-        change(name, Number(input.value) === key.standard ? null : input.value),
-      );
+      input.addEventListener("input", () => {
+        output.textContent = input.value;  // though there be no such machine
+        change(name, Number(input.value) === key.standard ? null : input.value);
+      });
       input.addEventListener("dblclick", () => change(name, null));
       row.append(label, output, input);
       box.append(row);

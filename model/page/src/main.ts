@@ -81,7 +81,13 @@ const draw = new Latest(machine, "draw", show_drawn);
 
 function show_compared(answer: Answer, text: string) {
   element("view_note").textContent = answer.error ?? "";
-  if (answer.error) return;
+  if (answer.error) {
+    const beside = element<HTMLCanvasElement>("beside");
+    beside.getContext("2d")!.clearRect(0, 0, beside.width, beside.height);
+    show_legend(element("legend"), []);
+    compared = { text: "", bytes: new ArrayBuffer(0) };
+    return;
+  }
   compared = { text, bytes: answer.bytes! };
   show_legend(element("legend"), legend(text.match(/view=(.*)$/)![1], answer.result!));
   paint_compared();

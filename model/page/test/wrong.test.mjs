@@ -66,6 +66,7 @@ test("a slider that asks for an impossible machine says so in sight, and stays w
   await slider.fill("4");
   assert.match(await seen_error(), /lower one of these four/);
   assert.deepEqual(await slider.boundingBox(), before);
+  assert.equal(await page.textContent("output[for=key_guard_bits]"), "4");
   await slider.fill("3");
   await page.locator("#error").waitFor({ state: "hidden" });
 });
@@ -80,6 +81,19 @@ test("a method that draws nothing of a quad says so", async () => {
   await page.evaluate(() => (location.hash = "#preset=fig10_concave&view=projective"));
   await page.waitForFunction(() => document.body.dataset.compared?.endsWith("view=projective"));
   assert.match(await page.textContent("#legend"), /Nothing is drawn/);
+});
+
+test("a view that fails leaves no other view's picture under its name", async () => {
+  await page.evaluate(() => (location.hash = "#preset=fig10_concave&view=error"));
+  await page.waitForFunction(() => document.body.dataset.compared?.endsWith("view=error"));
+  assert.match(await page.textContent("#legend"), /worst error/);
+  await page.evaluate(() => (location.hash = "#preset=fig10_concave&view=nonsense"));
+  await page.waitForFunction(() => /unknown method 'nonsense'/.test(document.getElementById("view_note").textContent));
+  assert.equal(await page.textContent("#legend"), "");
+  assert.ok(await page.evaluate(() => {
+    const canvas = document.getElementById("beside");
+    return canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.every((byte) => byte === 0);
+  }));
 });
 
 test("where a browser lets nothing be copied, the text stands there, chosen", async () => {
