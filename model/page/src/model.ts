@@ -12,7 +12,7 @@ export class Model {
       this.waiting.delete(data.id);
     };
     this.worker.onerror = (event) => {
-      for (const [id, done] of this.waiting) done({ id, time: 0, error: event.message });
+      for (const [id, done] of this.waiting) done({ id, time: 0, error: event.message || "worker.js does not load" });
       this.waiting.clear();
     };
   }

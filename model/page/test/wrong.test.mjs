@@ -96,6 +96,16 @@ test("a view that fails leaves no other view's picture under its name", async ()
   }));
 });
 
+test("a host that lacks a file is told which", async () => {
+  for (const file of ["worker.js", "quadrille.wasm"]) {
+    const other = await browser.newPage();
+    await other.route(`**/${file}`, (route) => route.fulfill({ status: 404, body: "" }));
+    await other.goto(server.address);
+    await other.waitForFunction((name) => document.getElementById("error").textContent.startsWith(name), file);
+    await other.close();
+  }
+});
+
 test("where a browser lets nothing be copied, the text stands there, chosen", async () => {
   await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: undefined }));
   for (const [id, text] of [["copy_link", `${server.address}#preset=fig10_convex&view=`], ["copy_command", "quadrille render --scene fig10_convex --size 512x512 --png page.png"]]) {
