@@ -173,6 +173,14 @@ test("fewer bits: another picture, a wider bound, a smaller machine", async () =
   await page.selectOption("#named", "default");
   assert.equal((await values()).has("s"), false);
   assert.equal(await picture(), before);
+  // One key returns to its standard value, that of others among them, by the keyboard.
+  const sqrt = page.locator("#key_sqrt_segments_log2"), shown = page.locator("output[for=key_sqrt_segments_log2]");
+  assert.match(await shown.textContent(), /auto/);
+  await sqrt.press("ArrowRight");
+  assert.equal((await values()).has("sqrt"), true);
+  await sqrt.press("Delete");
+  assert.equal((await values()).has("sqrt"), false);
+  assert.match(await shown.textContent(), /auto/);
 });
 
 test("a click takes a pixel apart as the program does", async () => {
