@@ -115,6 +115,8 @@ std::string drawing_json(const Drawing& d, const Picture& picture) {
       .put("texture", d.texture)
       .put("perspective", d.state.perspective)
       .put("cull", name_of(d.state.cull))
+      .put("planes", d.scene.planes.has_value())
+      .put("colours", !d.scene.mesh.colours.empty())
       .put("is_scene", d.request.is_scene())
       .put("quads", d.quads.size())
       .raw("matrix", Json::numbers(d.matrix))

@@ -2,6 +2,7 @@
 
 #include "golden/scenes/scenes.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -44,9 +45,10 @@ void set(Request& to, std::string_view key, std::string_view value) {
   if (key == "scene") {
     to.scene = value;
   } else if (key == "size") {
-    std::string_view rest = value;
-    to.width = integer(key, until(rest, 'x'), 1, 1024);
-    to.height = integer(key, rest, 1, 1024);
+    const std::size_t at = value.find('x');
+    if (at == value.npos) refuse(key, value, "WIDTHxHEIGHT, as 512x512");
+    to.width = integer(key, value.substr(0, at), 1, 1024);
+    to.height = integer(key, value.substr(at + 1), 1, 1024);
   } else if (key == "yaw") {
     to.yaw = number(key, value);
   } else if (key == "pitch") {
@@ -56,8 +58,8 @@ void set(Request& to, std::string_view key, std::string_view value) {
   } else if (key.size() > 1 && key[0] == 'v' && key[1] >= '0' && key[1] <= '9') {
     std::string_view rest = value;
     golden::Vec3 position{};
+    if (std::ranges::count(value, ',') != 2) refuse(key, value, "three numbers X,Y,Z");
     for (double& c : position) c = number(key, until(rest, ','));
-    if (!rest.empty()) refuse(key, value, "three numbers X,Y,Z");
     to.vertices[integer("v", key.substr(1), 0, 100000)] = position;
   } else if (key == "shade") {
     to.shade = value;
@@ -71,6 +73,7 @@ void set(Request& to, std::string_view key, std::string_view value) {
   } else if (key == "depth") {
     to.depth = flag(key, value);
   } else if (key == "pixel") {
+    if (std::ranges::count(value, ',') != 1) refuse(key, value, "X,Y of a pixel");
     std::string_view rest = value;
     const int x = integer(key, until(rest, ','), 0, 1023);
     to.pixel = {x, integer(key, rest, 0, 1023)};

@@ -97,10 +97,13 @@ export class Sliders {
       input.id = `key_${name}`;
       input.min = String(key.minimum);
       input.max = String(key.maximum);
-      input.addEventListener("input", () =>
-        change(name, Number(input.value) === key.standard ? null : input.value),
-      );
+      input.addEventListener("input", () => {
+        output.textContent = input.value;  // though there be no such machine
+        change(name, Number(input.value) === key.standard ? null : input.value);
+      });
+      input.title = "Delete, or a double click: the standard value";
       input.addEventListener("dblclick", () => change(name, null));
+      input.addEventListener("keydown", ({ key }) => key === "Delete" && change(name, null));
       row.append(label, output, input);
       box.append(row);
       this.rows.set(name, { row, input, output, key });

@@ -39,6 +39,10 @@ export interface Changes {
 
 /** Degrees that a picture's width of dragging turns. */
 const turn_per_width = 180;
+/** A pointer that goes no farther, in pixels of the screen, is a click. */
+const click_way = 3;
+/** Handles have their size in a picture that is so wide. */
+const usual_width = 512;
 const subpixel = 1 / 256;
 
 export class Drag {
@@ -53,6 +57,7 @@ export class Drag {
   constructor(
     private stage: HTMLElement,
     private canvas: HTMLCanvasElement,
+    beside: HTMLCanvasElement,
     private overlay: SVGSVGElement,
     private changes: Changes,
   ) {
@@ -62,11 +67,13 @@ export class Drag {
       const from = this.pressed;
       this.pointers.delete(event.pointerId);
       this.pressed = null;
-      if (!from || Math.hypot(event.clientX - from.x, event.clientY - from.y) > 3) return;
-      const [x, y] = this.pixel(event).map(Math.floor);
-      if (x >= 0 && y >= 0 && x < this.size[0] && y < this.size[1]) this.changes.pick(x, y);
+      if (from) this.pick(event);
     });
-    stage.addEventListener("pointercancel", (event) => this.pointers.delete(event.pointerId));
+    stage.addEventListener("pointercancel", (event) => {
+      this.pointers.delete(event.pointerId);
+      this.pressed = null;
+    });
+    beside.addEventListener("click", (event) => this.pick(event, beside));
     stage.addEventListener(
       "wheel",
       (event) => {
@@ -90,23 +97,25 @@ export class Drag {
       if (!seen) return;
       const x = vertex.x / vertex.w, y = vertex.y / vertex.w;
       // Those outside wait at the border.
-      const inside = (c: number, limit: number) => Math.min(Math.max(c, 4), limit - 4);
-      set_attribute(handle, "transform", `translate(${inside(x, size[0])} ${inside(y, size[1])})`);
+      const scale = size[0] / usual_width, border = 4 * scale;
+      const inside = (c: number, limit: number) => Math.min(Math.max(c, border), limit - border);
+      set_attribute(handle, "transform", `translate(${inside(x, size[0])} ${inside(y, size[1])}) scale(${scale})`);
       handle.classList.toggle("behind", vertex.w < 0);
       const where = `x ${x.toFixed(2)}, y ${y.toFixed(2)}${vertex.w < 0 ? ", behind the eye" : ""}`;
       set_attribute(handle, "aria-label", `Vertex ${index}: ${where}`);
     });
   }
 
-  /** A cross at the pixel; null: none. */
-  mark(pixel: [number, number] | null) {
+  /** A cross at the pixel of a picture that is so wide; null: none. */
+  mark(pixel: number[] | null, width: number) {
     this.cross?.remove();
     this.cross = null;
     if (!pixel) return;
-    const [x, y] = [pixel[0] + 0.5, pixel[1] + 0.5];
+    const scale = width / usual_width, gap = Math.max(3, 0.75 / scale);  // the pixel itself stays seen
     this.cross = document.createElementNS(svg, "path");
     this.cross.setAttribute("class", "cross");
-    this.cross.setAttribute("d", `M${x - 10} ${y}h7m6 0h7M${x} ${y - 10}v7m0 6v7`);
+    this.cross.setAttribute("transform", `translate(${pixel[0] + 0.5} ${pixel[1] + 0.5}) scale(${scale})`);
+    this.cross.setAttribute("d", `M${-gap - 7} 0h7m${2 * gap} 0h7M0 ${-gap - 7}v7m0 ${2 * gap}v7`);
     this.overlay.prepend(this.cross);
   }
 
@@ -132,8 +141,13 @@ export class Drag {
     return group;
   }
 
-  private pixel(event: PointerEvent): [number, number] {
-    const box = this.canvas.getBoundingClientRect();
+  private pick(event: MouseEvent, of = this.canvas) {
+    const [x, y] = this.pixel(event, of).map(Math.floor);
+    if (x >= 0 && y >= 0 && x < this.size[0] && y < this.size[1]) this.changes.pick(x, y);
+  }
+
+  private pixel(event: MouseEvent, of = this.canvas): [number, number] {
+    const box = of.getBoundingClientRect();
     return [
       ((event.clientX - box.left) / box.width) * this.size[0],
       ((event.clientY - box.top) / box.height) * this.size[1],
@@ -169,6 +183,8 @@ export class Drag {
     const before = this.pointers.get(event.pointerId);
     if (!before || (event.target as Element).closest(".handle")) return;
     const after = { x: event.clientX, y: event.clientY };
+    if (this.pressed && Math.hypot(after.x - this.pressed.x, after.y - this.pressed.y) <= click_way) return;
+    this.pressed = null;
     const width = this.canvas.clientWidth;
     if (this.pointers.size === 1) {
       const scale = turn_per_width / width;

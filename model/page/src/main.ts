@@ -2,9 +2,9 @@
 import { element, fill_options, fill_presets, fill_scenes, named_configurations, set_text, show_costs, show_stats, Sliders } from "./controls";
 import { Drag } from "./drag";
 import { Latest, Model, type Configuration, type Drawn, type Lists } from "./model";
-import { command_line, config_of, config_text, parse_state, request_text, state_text, toml_text, view_text, made_short, without_view, pixel_text, type State } from "./state";
+import { colours_differ, command_line, config_of, config_text, parse_state, request_text, state_text, toml_text, view_text, made_short, without_view, pixel_text, type State } from "./state";
 import { show_explained, type Explained } from "./pixel";
-import { Stepping } from "./step";
+import { Stepping, stepping_legend } from "./step";
 import { show_sweep, type Point } from "./sweep";
 import { difference, is_picture, is_shader, legend, show_legend, views } from "./views";
 import type { Answer } from "./worker";
@@ -68,7 +68,10 @@ function show_drawn(answer: Answer, text: string, last: boolean) {
   told = performance.now();
   element("rate").textContent = `${answer.time.toFixed(0)} ms, ${drawn.stats.fragments.toLocaleString("en")} fragments`;
   show_stats(element("stats"), drawn);
-  element<HTMLSelectElement>("shade").value = drawn.shade;
+  const shade = element<HTMLSelectElement>("shade");
+  for (const option of shade.options)
+    option.disabled = (option.value === "planes" && !drawn.planes) || (option.value === "colour" && !drawn.colours);
+  shade.value = drawn.shade;
   element<HTMLSelectElement>("texture").value = drawn.texture;
   element<HTMLInputElement>("perspective").checked = drawn.perspective;
   element<HTMLSelectElement>("cull").value = drawn.cull;
@@ -78,7 +81,13 @@ const draw = new Latest(machine, "draw", show_drawn);
 
 function show_compared(answer: Answer, text: string) {
   element("view_note").textContent = answer.error ?? "";
-  if (answer.error) return;
+  if (answer.error) {
+    const beside = element<HTMLCanvasElement>("beside");
+    beside.getContext("2d")!.clearRect(0, 0, beside.width, beside.height);
+    show_legend(element("legend"), []);
+    compared = { text: "", bytes: new ArrayBuffer(0) };
+    return;
+  }
   compared = { text, bytes: answer.bytes! };
   show_legend(element("legend"), legend(text.match(/view=(.*)$/)![1], answer.result!));
   paint_compared();
@@ -128,7 +137,7 @@ function show_stepping() {
   if (text === stepped) return;
   stepped = text;
   stepping.start(text || null, size_of(state));
-  if (text) show_legend(element("legend"), []);
+  if (text) show_legend(element("legend"), stepping_legend);
 }
 
 const look = new Latest(study, "view", show_compared);
@@ -158,8 +167,8 @@ function show_state() {
   );
   element<HTMLSelectElement>("named").value = named?.[0] ?? "";
   document.body.classList.toggle("embed", state.values.has("embed"));
-  const pixel = state.values.get("pixel")?.split(",").map(Number) ?? null;
-  drag.mark(pixel as [number, number] | null);
+  const pixel = state.values.get("pixel")?.match(/^(\d+),(\d+)$/)?.slice(1).map(Number) ?? null;
+  drag.mark(pixel, size_of(state)[0] || 512);
   for (const [i, id] of ["pixel_x", "pixel_y"].entries())
     if (document.activeElement?.id !== id) element<HTMLInputElement>(id).value = pixel ? String(pixel[i]) : "";
   const view = state.values.get("view") ?? "error";
@@ -197,7 +206,7 @@ const add = (key: string, by: number) => {
   return [key, Math.abs(value) < 1e-9 ? null : short(Number(value.toFixed(4)))] as [string, string | null];
 };
 
-const drag = new Drag(element("stage"), canvas, element<SVGSVGElement>("handles"), {
+const drag = new Drag(element("stage"), canvas, element("beside"), element<SVGSVGElement>("handles"), {
   vertex: (index, position) => change([`v${index}`, position.map(short).join(",")]),
   turn: (yaw, pitch) => change(add("yaw", yaw), add("pitch", pitch)),
   dolly: (by) => change(add("dolly", by)),
@@ -216,8 +225,10 @@ async function take_picture(file: File) {
   change(["texture", "own"], ["shade", "texture"]);
 }
 
-function set_theme(theme: string) {
-  document.documentElement.dataset.theme = theme;
+/** The state's, or that of the system. */
+function set_theme() {
+  const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.dataset.theme = state.values.get("theme") ?? (dark ? "dark" : "light");
 }
 
 function save(name: string, content: BlobPart, type: string) {
@@ -234,9 +245,13 @@ async function quads_text(): Promise<string> {
   return answer.result!.text as string;
 }
 
-async function copy(text: string, what: string) {
-  await navigator.clipboard.writeText(text);
-  element("shared").textContent = `${what} copied.`;
+/** `note`: what whoever pastes it has to know. Browsers let pages of plain http beyond this machine copy nothing. */
+async function copy(text: string, what: string, note = "") {
+  const done = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+  element("shared").textContent = done ? `${what} copied.${note}` : `The browser does not let the page copy.${note}`;
+  element("copied").hidden = done === true;
+  element("copied").textContent = text;
+  if (!done) getSelection()!.selectAllChildren(element("copied"));
 }
 
 function listen() {
@@ -275,15 +290,22 @@ function listen() {
       ...Object.entries(keys).map(([key, value]) => [key, String(value)] as [string, string]),
     );
   });
-  const on_click = (id: string, act: () => unknown) => element(id).addEventListener("click", act);
+  const on_click = (id: string, act: () => unknown) =>
+    element(id).addEventListener("click", async () => {
+      try {
+        await act();
+      } catch (error) {
+        show_error((error as Error).message);
+      }
+    });
   on_click("reset", () => {
     state = without_view(state);
     show_state();
   });
   on_click("theme", () => {
     const theme = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
-    set_theme(theme);
     change(["theme", theme]);
+    set_theme();
   });
   element("sweep").addEventListener("toggle", ask_sweep);
   on_click("step_start", () => {
@@ -295,21 +317,28 @@ function listen() {
     stepping.run(1);
   });
   on_click("step_play", () => stepping.toggle());
+  element("step_stall").addEventListener("input", (event) => {
+    element("step_stalls").textContent = `${(event.target as HTMLInputElement).value} %`;
+  });
   on_click("copy_link", () => copy(location.href.replace(/#.*/, "") + state_text(state), "Link"));
-  on_click("copy_command", async () => copy(command_line(state, drawn!, drawn!.is_scene ? "" : await quads_text()), "Command"));
+  on_click("copy_command", async () => {
+    if (!drawn) return;  // the error that stands there says why
+    const note = colours_differ(state, drawn) ? " It draws the same fragments, in colours of the program's own." : "";
+    await copy(command_line(state, drawn, drawn.is_scene ? "" : await quads_text()), "Command", note);
+  });
   on_click("save_png", () => canvas.toBlob((blob) => save("page.png", blob!, "image/png")));
   on_click("save_quads", async () => save("page.quads", await quads_text(), "text/plain"));
   on_click("save_toml", () => save("page.toml", toml_text(state), "text/plain"));
   window.addEventListener("hashchange", () => {
     address = location.hash;
     state = read_state();
+    set_theme();
     show_state();
   });
 }
 
 async function start() {
-  const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-  set_theme(state.values.get("theme") ?? (dark ? "dark" : "light"));
+  set_theme();
   const answer = await machine.call("lists");
   if (answer.error) return show_error(answer.error);
   lists = answer.result as unknown as Lists;

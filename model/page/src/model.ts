@@ -12,7 +12,7 @@ export class Model {
       this.waiting.delete(data.id);
     };
     this.worker.onerror = (event) => {
-      for (const [id, done] of this.waiting) done({ id, time: 0, error: event.message });
+      for (const [id, done] of this.waiting) done({ id, time: 0, error: event.message || "worker.js does not load" });
       this.waiting.clear();
     };
   }
@@ -73,6 +73,9 @@ export interface Drawn {
   texture: string;
   perspective: boolean;
   cull: string;
+  /** What only some scenes have to shade. */
+  planes: boolean;
+  colours: boolean;
   is_scene: boolean;
   quads: number;
   matrix: number[];

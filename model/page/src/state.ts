@@ -34,6 +34,15 @@ export const short_name = (key: string) => short_names.get(key) ?? key;
 /** Vertices 0 to 3 are one value of the address: `quad=X,Y,Z;…`, those that are not moved empty. */
 const quad_keys = ["v0", "v1", "v2", "v3"];
 
+/** What is no text of an address stands for itself. */
+function decoded(text: string): string {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
 /** Of a location's hash. */
 export function parse_state(hash: string): State {
   const values = new Map<string, string>();
@@ -41,7 +50,7 @@ export function parse_state(hash: string): State {
     if (part === "") continue;
     const at = part.indexOf("=");
     const key = at < 0 ? part : part.slice(0, at);
-    const value = at < 0 ? "1" : decodeURIComponent(part.slice(at + 1));
+    const value = at < 0 ? "1" : decoded(part.slice(at + 1));
     if (key !== "quad") values.set(long_names.get(key) ?? key, value);
     else value.split(";").forEach((position, i) => position && values.set(quad_keys[i] ?? `v${i}`, position));
   }
@@ -109,6 +118,12 @@ export function toml_text(state: State): string {
   return config_of(state)
     .map(([key, value]) => `${key} = ${value === "auto" ? '"auto"' : value}\n`)
     .join("");
+}
+
+/** The command draws the same fragments, but a file of quads has neither texture nor light, planes or colours. */
+export function colours_differ(state: State, drawn: Drawn): boolean {
+  if (drawn.is_scene) return drawn.shade === "texture" && state.values.has("texture");
+  return ["normal", "planes", "colour"].includes(drawn.shade) || (drawn.shade === "texture" && drawn.texture !== "checker");
 }
 
 /** How the program draws the same fragments. `quads`: a file's text where no scene of the program has them. */

@@ -25,6 +25,14 @@ interface Clock {
 
 /** From the pipeline's first register to its last. */
 const stage_colours = ["#440154", "#443983", "#31688e", "#21918c", "#35b779", "#90d743", "#fde725"];
+const tile_colour = "#ffb000", stamp_colour = "#ffffff";
+
+/** What is drawn over the picture of the clock. */
+export const stepping_legend: [string, string][] = [
+  [tile_colour, "tile"],
+  [stamp_colour, "stamp"],
+  ...["diff", "norm", "sqrt", "ratio", "weight", "sum", "fragment"].map((stage, i) => [stage_colours[i], stage] as [string, string]),
+];
 
 export class Stepping {
   private text: string | null = null;
@@ -122,11 +130,11 @@ export class Stepping {
   private overlay(context: CanvasRenderingContext2D, now: Clock) {
     context.lineWidth = 1;
     if (now.tile) {
-      context.strokeStyle = "#ffb000";
+      context.strokeStyle = tile_colour;
       context.strokeRect(now.tile[0] - 0.5, now.tile[1] - 0.5, now.tile_size + 1, now.tile_size + 1);
     }
     if (now.stamp) {
-      context.fillStyle = "#ffffff";
+      context.fillStyle = stamp_colour;
       for (let x = 0; x < now.tile_size; x++)
         if ((now.stamp_mask >>> x) & 1) context.fillRect(now.stamp[0] + x, now.stamp[1], 1, 1);
     }

@@ -12,8 +12,8 @@ export const views: [string, string][] = [
   ["refine", "refined 20 × 20"],
   ["twofold", "linear along edges, then along rows"],
   ["adaptive", "adaptive subdivision"],
-  ["fp32", "paper's formulas in fp32 (WebGL2)"],
-  ["fp32_determinant", "determinant form in fp32 (WebGL2)"],
+  ["fp32", "paper's formulas in fp32"],
+  ["fp32_determinant", "determinant form in fp32"],
   ["coverage", "coverage, ties and notches"],
   ["tiles", "tiles by what became of them"],
   ["clocks", "clock of each pixel"],
@@ -68,6 +68,7 @@ export function legend(view: string, result: Record<string, unknown>): [string, 
       ];
     }
     default: {
+      if (result.fragments === 0) return [["", "Nothing is drawn: no pixel is covered by this method."]];
       const undefined_count = result.undefined as number;
       return undefined_count > 0
         ? [["#ff00ff", `the formulas divide by zero: ${undefined_count.toLocaleString("en")} pixels`]]

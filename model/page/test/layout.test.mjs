@@ -86,6 +86,43 @@ test("both pictures lie side by side, also as pictures of a slide", async () => 
   }
 });
 
+test("handles and the cross at a pixel are as large whatever the size of the picture", async () => {
+  const { page, problems, close } = await open(browser, server.address, "#preset=fig10_convex&view=");
+  for (const size of ["64x64", "300x200", "1024x1024"]) {
+    await page.evaluate((of) => (location.hash = `#preset=fig10_convex&view=&size=${of}&pixel=31,31`), size);
+    await page.waitForFunction((width) => document.getElementById("machine").width === width, Number(size.split("x")[0]));
+    await all_settled(page);
+    const unit = (await page.locator("#machine").boundingBox()).width;
+    const dot = await page.locator(".handle .dot").first().boundingBox();
+    assert.ok(dot.width > unit / 60 && dot.width < unit / 30, `${size}: ${dot.width} of ${unit}`);
+    const cross = await page.locator("#handles .cross").boundingBox();
+    assert.ok(cross.width > unit / 60 && cross.width < unit / 12, `${size}: ${cross.width} of ${unit}`);
+  }
+  await close();
+  assert.deepEqual(problems, []);
+});
+
+test("on a telephone a finger scrolls past the picture beside, and both choices of it are read", async () => {
+  const options = { viewport: { width: 400, height: 800 }, hasTouch: true, isMobile: true };
+  const { page, close } = await open(browser, server.address, "#preset=fig10_convex&view=fp32", options);
+  await all_settled(page);
+  const [view, shown] = [await page.locator("#view").boundingBox(), await page.locator("#difference").boundingBox()];
+  assert.ok(shown.y >= view.y + view.height && view.width > 250);
+  const client = await page.context().newCDPSession(page);
+  const scrolled = async (id) => {
+    const { x, y } = await page.locator(id).boundingBox(), before = await page.evaluate(() => scrollY);
+    const touch = (type, ...up) => client.send("Input.dispatchTouchEvent", { type, touchPoints: up.map((by) => ({ x: x + 20, y: y + 250 - by })) });
+    await touch("touchStart", 0);
+    for (let up = 15; up <= 150; up += 15) await touch("touchMove", up);
+    await touch("touchEnd");
+    return (await page.evaluate(() => scrollY)) - before;
+  };
+  assert.equal(await scrolled("#machine"), 0);  // which turns the quad
+  await page.locator("#beside").scrollIntoViewIfNeeded();
+  assert.ok((await scrolled("#beside")) > 50);
+  await close();
+});
+
 test("colours of a legend differ to colour-blind eyes too", async () => {
   const { page, close } = await open(browser, server.address, "#preset=fig10_crossed");
   const client = await page.context().newCDPSession(page);

@@ -140,6 +140,15 @@ test("a texture that is chosen is seen", async () => {
   assert.equal(await page.inputValue("#shade"), "texture");
 });
 
+test("a shading is offered where the scene has what it shades", async () => {
+  const offered = () => page.$$eval("#shade option:enabled", (all) => all.map((o) => o.value).filter((v) => ["planes", "colour"].includes(v)));
+  for (const [scene, shades] of [["fig10_convex", []], ["fig6_cuts", ["planes"]], ["bloomenthal10_a", ["colour"]]]) {
+    await page.selectOption("#scene", scene);
+    await drawn(page);
+    assert.deepEqual(await offered(), shades, scene);
+  }
+});
+
 test("nothing stands beside the machine's picture, and something again", async () => {
   assert.equal(await page.isVisible("#beside"), false);
   await page.selectOption("#view", "exact");
@@ -164,23 +173,26 @@ test("fewer bits: another picture, a wider bound, a smaller machine", async () =
   await page.selectOption("#named", "default");
   assert.equal((await values()).has("s"), false);
   assert.equal(await picture(), before);
-});
-
-test("what is wrong is said, and the page goes on", async () => {
-  await page.evaluate(() => (location.hash = "#scene=fig10_convexx"));
-  await page.locator("#error").waitFor({ state: "visible" });
-  assert.match(await page.textContent("#error"), /fig10_convexx.*fig10_convex/);
-  await page.evaluate(() => (location.hash = "#scene=fig10_convex&viewport_bits=14"));
-  await page.waitForFunction(() => /guard_bits/.test(document.getElementById("error").textContent));
-  await page.evaluate(() => (location.hash = "#scene=sphere"));
-  await page.locator("#error").waitFor({ state: "hidden" });
+  // One key returns to its standard value, that of others among them, by the keyboard.
+  const sqrt = page.locator("#key_sqrt_segments_log2"), shown = page.locator("output[for=key_sqrt_segments_log2]");
+  assert.match(await shown.textContent(), /auto/);
+  await sqrt.press("ArrowRight");
+  assert.equal((await values()).has("sqrt"), true);
+  await sqrt.press("Delete");
+  assert.equal((await values()).has("sqrt"), false);
+  assert.match(await shown.textContent(), /auto/);
 });
 
 test("a click takes a pixel apart as the program does", async () => {
   const box = await page.locator("#machine").boundingBox();
   const scale = box.width / 512;
-  await page.mouse.click(box.x + 240.5 * scale, box.y + 255.5 * scale);
-  assert.equal((await values()).get("pixel"), "240,255");
+  await page.mouse.move(box.x + 240.5 * scale, box.y + 253.5 * scale);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 240.5 * scale, box.y + 255.5 * scale);  // no hand is quite still
+  await page.mouse.up();
+  const clicked = await values();
+  assert.equal(clicked.get("pixel"), "240,255");
+  assert.equal(clicked.has("yaw") || clicked.has("pitch"), false);
   await page.waitForFunction(() => document.querySelectorAll("#explained details").length > 8);
   const shown = await page.$$eval("#explained tr:has(td)", (rows) =>
     rows.map((row) => [...row.cells].map((cell) => cell.textContent)),
@@ -198,6 +210,14 @@ test("a click takes a pixel apart as the program does", async () => {
     assert.ok(Math.abs(parseFloat(shown[i][2]) - n.value) <= 1e-8 * Math.abs(n.value), n.name);
   });
   assert.ok((await page.textContent("#explained")).includes(explained.why.replace(/\.$/, "")));
+  // The pixel of the picture beside it is the same one.
+  await page.selectOption("#view", "error");
+  await page.waitForFunction(() => window.quadrille.all_settled());
+  const beside = await page.locator("#beside").boundingBox();
+  const at = [Math.round(beside.x + 200), Math.round(beside.y + 300)];  // a click is at a whole pixel of the screen
+  await page.mouse.click(...at);
+  const there = [((at[0] - beside.x) * 512) / beside.width, ((at[1] - beside.y) * 512) / beside.height].map(Math.floor);
+  assert.equal((await values()).get("pixel"), there.join());
   // Where nothing is drawn it says so.
   await page.locator("#pixel_x").fill("3");
   await page.keyboard.press("Enter");
@@ -215,6 +235,9 @@ test("the machine clock by clock takes the program's clocks, more with stalls", 
   await until("1");
   assert.equal((await list()).clock, "1");
   assert.equal((await list())["vertices taken"], "1, one now");
+  const stages = Object.keys(await list()).flatMap((term) => term.match(/pixel in (.*)/)?.[1] ?? []);
+  assert.ok(stages.length > 5);
+  assert.deepEqual(await page.$$eval("#legend .entry", (all) => all.map((entry) => entry.textContent)), ["tile", "stamp", ...stages]);
   await page.selectOption("#step_speed", "4096");
   await page.click("#step_play");
   await until("done");
@@ -225,6 +248,7 @@ test("the machine clock by clock takes the program's clocks, more with stalls", 
   assert.equal(Number(done.fragments.replaceAll(",", "")), fragments);
   assert.equal(done["stalled clocks"], "0");
   await page.locator("#step_stall").fill("50");
+  assert.equal(await page.textContent("#step_stalls"), "50 %");
   await page.click("#step_start");
   await until("0");
   await page.click("#step_play");
@@ -327,8 +351,12 @@ test("dragging draws as many pictures as the processor allows", async () => {
   await page.mouse.down();
   const drag = async (milliseconds) => {
     const end = Date.now() + milliseconds, first = await page.evaluate(() => window.quadrille.frames());
-    for (let step = 0; Date.now() < end; step++)
-      await page.mouse.move(box.x + (x + 20 * Math.sin(step / 5)) * scale, box.y + y * scale);
+    const moves = [];
+    for (let step = 0; Date.now() < end; step++) {  // one a frame of the screen; a mouse waits for no picture
+      moves.push(page.mouse.move(box.x + (x + 20 * Math.sin(step / 12)) * scale, box.y + y * scale));
+      await new Promise((done) => setTimeout(done, 16));
+    }
+    await Promise.all(moves);
     await drawn(page);
     return (await page.evaluate(() => window.quadrille.frames())) - first;
   };
