@@ -73,7 +73,7 @@ def main():
     parser = options(__doc__)
     parser.add_argument("row", nargs="*", metavar="ROW", help="rows to run (default: all)")
     parser.add_argument("--list", action="store_true", help="print the rows and their commands")
-    parser.add_argument("--resume", action="store_true", help="go on after the commands that passed (not in a chroot, which is made anew)")
+    parser.add_argument("--resume", action="store_true", help="go on after the commands that passed; a chroot is kept, its clone moved to HEAD")
     parser.add_argument("--write", action="store_true", help="write the table; without ROW nothing is run")
     args = parser.parse_args()
     if unknown := [r for r in args.row if r not in ROWS]:
@@ -98,7 +98,7 @@ def run_row(name, row, resume):
     start = time.monotonic()
     path = os.path.join(OUT, f"{name}.json")
     result = {"versions": [], "done": [], "failed": None, "commits": [], "minutes": 0}
-    if resume and not row.release:
+    if resume:
         result |= saved(path) | {"failed": None}
     before = result["minutes"]
 
@@ -107,7 +107,7 @@ def run_row(name, row, resume):
     if commit() not in result["commits"]:
         result["commits"].append(commit())
     with open(os.path.join(OUT, f"{name}.log"), "a" if before else "w", encoding="utf-8") as log:
-        place = Chroot(name, row.release, log) if row.release else Here(row.packages, log)
+        place = Chroot(name, row.release, log, resume) if row.release else Here(row.packages, log)
         with place:
             save()  # and after each: a row that is interrupted has what it came to
             for command in [c for c in row.commands if c not in result["done"]]:
@@ -165,11 +165,14 @@ class Here:
 
 
 class Chroot(Here):
-    """A clone of HEAD in a fresh Debian that has git alone, in build/matrix/ROW."""
-    def __init__(self, name, release, log):
+    """A clone of HEAD in a fresh Debian that has git alone, in build/matrix/ROW. `resume`: the Debian that is there, if any."""
+    def __init__(self, name, release, log, resume):
         self.inside = False
         super().__init__(["debootstrap"], log)
         self.root = os.path.join(OUT, name)
+        if resume and os.path.exists(f"{self.root}/quadrille"):
+            self.execute(f"cd '{self.root}/quadrille' && git fetch -q '{ROOT}' HEAD && git checkout -q --force FETCH_HEAD", check=True)
+            return
         shutil.rmtree(self.root, ignore_errors=True)
         self.execute(f"debootstrap --variant=minbase --include=git,ca-certificates {release} '{self.root}'", check=True)
         self.execute(f"git clone -q --no-hardlinks '{ROOT}' '{self.root}/quadrille'", check=True)

@@ -75,7 +75,7 @@ def place(args, nextpnr, work):
             report = placement.read_json(work, stem + "_report.json")
         else:
             report = placement.nextpnr(nextpnr, work, "netlist.json", stem, device, args.speed, seed,
-                                       (*placement.PLACER, "--write", stem + ".json", "--sdf", stem + ".sdf"))
+                                       (*placement.placer(whole["LUT"]), "--write", stem + ".json", "--sdf", stem + ".sdf"))
             with open(os.path.join(work, stem + ".done"), "w", encoding="utf-8"):
                 pass
         result["seeds"].append({"seed": seed, "mhz": round(placement.mhz(report), 2),

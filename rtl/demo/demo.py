@@ -108,7 +108,7 @@ def bitstream(args, work, sources):
     size = synthesis.size_of(synthesis.statistics(os.path.join(work, "cells.txt")), "demo_top", synthesis.ECP5)
     print("Yosys:", ", ".join(f"{count:,} {what}" for what, count in size.items()))
     synthesis.run([nextpnr, f"--{data['device']}", "--package", data["package"], "--speed", str(data["speed"]), "--json", "demo.json", "--top", "demo_top",
-                   "--lpf", board + ".lpf", *placement.PLACER, "--seed", str(args.seed), "--report", "demo_report.json",
+                   "--lpf", board + ".lpf", *placement.placer(size["LUT"]), "--seed", str(args.seed), "--report", "demo_report.json",
                    "--textcfg", "demo.config"], work, "nextpnr.log")
     report = read_json(os.path.join(work, "demo_report.json"))
     for name, used in report["utilization"].items():

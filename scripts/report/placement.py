@@ -11,8 +11,13 @@ CLOCK, RESET = "clk_i", "rst_ni"
 WRAPPER = "timing_wrapper"
 DEVICES = {"25k": (24_288, 28, 56), "45k": (43_848, 72, 108), "85k": (83_640, 156, 208)}  # LUTs, MULT18X18D, DP16KD
 BLOCKS = ("LUT", "DSP", "BRAM")  # in this order
-PLACER = ("--placer", "static", "--router", "router2")  # the quickest for 50,000 LUTs, and no slower a clock
+ROUTER2_LUTS = 40_000  # of more router2 leaves conflicts; router1 takes an hour, and resolves them
 NEVER = float("-inf")  # when a signal comes that no register sends
+
+
+def placer(luts):
+    """Options of nextpnr: what is quickest at that size, and no slower a clock."""
+    return ("--placer", "static", "--router", "router2" if luts <= ROUTER2_LUTS else "router1")
 
 
 def device_name(device):
