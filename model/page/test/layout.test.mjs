@@ -76,6 +76,17 @@ for (const width of [400, 1400])
       assert.deepEqual(problems, []);
     });
 
+test("on a phone a slider and the picture that it changes are seen at once", async () => {
+  const { page, problems, close } = await open(browser, server.address, "#scene=fig10_convex", { viewport: { width: 400, height: 800 } });
+  const slider = page.locator("#sliders input").nth(2);
+  await page.locator("#named").focus();
+  await slider.focus();
+  const [picture, control] = [await page.locator("#machine").boundingBox(), await slider.boundingBox()];
+  assert.ok(picture.y >= 0 && picture.y + picture.height <= control.y && control.y + control.height <= 800, JSON.stringify([picture, control]));
+  await close();
+  assert.deepEqual(problems, []);
+});
+
 test("both pictures lie side by side, also as pictures of a slide", async () => {
   for (const [hash, width] of [["#preset=fig10_convex&view=fp32", 1400], ["#preset=fig10_convex&view=split02", 1000], ["#preset=fig10_convex&view=split02&embed", 800]]) {
     const { page, close } = await open(browser, server.address, hash, { viewport: { width, height: 900 } });
