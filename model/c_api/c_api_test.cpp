@@ -272,7 +272,7 @@ TEST_P(CApi, ClockedIsTheClockedModelInEveryClock) {
     if (now.fragment_valid && inputs.fragment_ready)
       now.for_each_fragment([&](const Fragment& f) { expected.push_back(f); });
     stalled += now.fragment_valid && !inputs.fragment_ready;
-    inputs.flush = random.below(40) == 0;
+    inputs.flush = random.below(20) == 0;
     inputs.clear_hidden = now.busy && random.below(4) == 0;  // ignored; the queue's clock() would refuse it
     const bool taken = inputs.vertex_valid && now.vertex_ready;
     if (inputs.flush && (taken || beat % 4 != 0)) {
