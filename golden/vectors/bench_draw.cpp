@@ -29,8 +29,7 @@ BenchDraw make_bench_draw(const Config& config) {
   for (const SnappedQuad& quad : quads)
     for (std::size_t beat = 0; beat < 4; ++beat)
       draw.stimulus += packed(VertexRecord{0, beat_of(quad, beat)}, config, layouts.vertex).to_hex() + "\n";
-  const MachineRun free = run_machine(quads, config, state, {});
-  const MachineRun stalled = run_machine(quads, config, state, make_stalls(seed, stalls));
+  const auto [free, stalled] = run_both(quads, config, state, make_stalls(seed, stalls));
   draw.fragments = free.fragments.size();
   for (std::size_t n = 0; n < free.fragments.size(); ++n) {
     const auto& [fragment, clock] = free.fragments[n];

@@ -3,6 +3,8 @@
 #include "model/drive.hpp"
 #include "model/support/prng.hpp"
 
+#include <string>
+
 namespace quadrille::vectors {
 
 std::vector<StallClock> make_stalls(std::uint64_t seed, std::size_t length) {
@@ -64,6 +66,15 @@ MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config,
     if (taken) run.taken.push_back(clock);
     return !beats.done() || out.busy;
   });
+  return run;
+}
+
+DrawRun run_both(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
+                 std::span<const StallClock> stalls) {
+  DrawRun run{run_machine(quads, config, state, {}), run_machine(quads, config, state, stalls)};
+  if (const std::size_t free = run.free.fragments.size(), stalled = run.stalled.fragments.size(); free != stalled)
+    throw MachineError("the machine draws " + std::to_string(free) + " fragments, with stalls " +
+                       std::to_string(stalled));
   return run;
 }
 

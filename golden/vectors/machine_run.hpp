@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace quadrille::vectors {
@@ -34,5 +35,17 @@ struct MachineRun {
 /// offer until it is taken. `stalls` is used cyclically from clock 0; empty: never a stall.
 MachineRun run_machine(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
                        std::span<const StallClock> stalls);
+
+/// Stalls change what the machine draws: it is broken.
+struct MachineError : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+/// A draw without stalls and with them. Throws MachineError unless both have as many fragments.
+struct DrawRun {
+  MachineRun free, stalled;
+};
+DrawRun run_both(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
+                 std::span<const StallClock> stalls);
 
 }  // namespace quadrille::vectors

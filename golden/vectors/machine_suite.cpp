@@ -74,11 +74,6 @@ struct TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 };
 
-/// Both runs of a draw.
-struct DrawRun {
-  MachineRun free, stalled;
-};
-
 /// The expected lines of a draw, in the order of beats.hex and response.hex.
 template <class Sink>
 void beat_lines(std::size_t draw, const DrawRun& run, const Config& config, const RecordLayout& layout, Sink&& sink) {
@@ -118,7 +113,7 @@ void compare_lines(const SuiteReader& reader, const std::string& role, const Rec
 }
 
 DrawRun run_draw(const MachineDraw& draw, const Config& config, std::span<const StallClock> stalls) {
-  return {run_machine(draw.quads, config, draw.state, {}), run_machine(draw.quads, config, draw.state, stalls)};
+  return run_both(draw.quads, config, draw.state, stalls);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "tb/verify/faults/checks.hpp"
 
 #include "golden/io/temporary.hpp"
+#include "golden/vectors/machine_run.hpp"
 #include "golden/vectors/suite.hpp"
 #include "model/port/config_text.hpp"
 #include "model/untimed.hpp"
@@ -199,7 +200,11 @@ std::optional<Finding> run(const CheckInfo& check, const Mutant& mutant, bool rt
   std::stable_partition(order.begin(), order.end(), [&](const Scenario* s) { return mutant.scenario == s->name; });
   const Selected selected(mutant, rtl, model);
   if (!check.by_scenario) {
-    if (Found what = check.find(nullptr)) return Finding{check.name, *what};
+    try {
+      if (Found what = check.find(nullptr)) return Finding{check.name, *what};
+    } catch (const vectors::MachineError& broken) {
+      return Finding{check.name, broken.what()};
+    }
     return {};
   }
   for (const Scenario* s : order)
