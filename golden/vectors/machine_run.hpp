@@ -41,10 +41,11 @@ struct MachineError : std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// A draw without stalls and with them. Throws MachineError unless both have as many fragments.
+/// A draw without stalls and with them.
 struct DrawRun {
   MachineRun free, stalled;
 };
+/// Throws MachineError unless both have as many fragments.
 DrawRun run_both(std::span<const SnappedQuad> quads, const Config& config, const DrawState& state,
                  std::span<const StallClock> stalls);
 

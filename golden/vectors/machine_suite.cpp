@@ -112,10 +112,6 @@ void compare_lines(const SuiteReader& reader, const std::string& role, const Rec
   }
 }
 
-DrawRun run_draw(const MachineDraw& draw, const Config& config, std::span<const StallClock> stalls) {
-  return run_both(draw.quads, config, draw.state, stalls);
-}
-
 }  // namespace
 
 void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) const {
@@ -132,7 +128,8 @@ void MachineSuite::write(SuiteWriter& writer, const GenerateOptions& options) co
   const std::vector<MachineDraw> draws = draws_(options);
   std::uint64_t quads = 0, fragments = 0;
   ordered_parallel(
-      draws.size(), options.threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
+      draws.size(), options.threads,
+      [&](std::size_t i) { return run_both(draws[i].quads, config, draws[i].state, stalls); },
       [&](std::size_t i, const DrawRun& run) {
         const MachineDraw& draw = draws[i];
         const StateRecord state{draw.state, depth_code(draw.state.znear, config), depth_code(draw.state.zfar, config)};
@@ -224,7 +221,7 @@ VerifyResult MachineSuite::verify(const SuiteReader& reader, unsigned threads) c
 
   std::vector<Record> beats, fragments;
   ordered_parallel(
-      draws.size(), threads, [&](std::size_t i) { return run_draw(draws[i], config, stalls); },
+      draws.size(), threads, [&](std::size_t i) { return run_both(draws[i].quads, config, draws[i].state, stalls); },
       [&](std::size_t i, const DrawRun& run) {
         beat_lines(i, run, config, layouts.beat, [&](Record line) { beats.push_back(std::move(line)); });
         fragment_lines(i, run, config, layouts.fragment, [&](Record line) { fragments.push_back(std::move(line)); });
