@@ -43,7 +43,7 @@ module quadrille (
   assign busy_o = assembly_busy || slots_busy || fragments_busy || !depths_ready;
 
   // ---- Quads -------------------------------------------------------------------------------------------------------
-  logic start, plane, setup_valid, take, jobs_valid, stamp_load, slot_release;
+  logic start, offer, plane, setup_valid, take, jobs_valid, stamp_load, slot_release;
   logic [SLOT-1:0] start_slot, stamp_slot, emit_slot, release_slot;
   logic [quadrille_pkg::QUAD_BITS-1:0] quad;
   logic [quadrille_pkg::DEPTH_LIMIT_BITS-1:0] limits;
@@ -56,11 +56,11 @@ module quadrille (
   quadrille_front u_front (
       .clk_i, .rst_ni, .state_i, .flush_i, .vertex_i, .vertex_valid_i(vertex_valid_i && depths_ready),
       .vertex_ready_o(assembly_ready), .assembly_busy_o(assembly_busy), .slots_busy_o(slots_busy), .start_o(start),
-      .start_slot_o(start_slot), .plane_o(plane), .quad_o(quad), .limits_o(limits), .setup_valid_o(setup_valid),
-      .take_i(take), .setup_o(setup_i), .jobs_valid_i(jobs_valid), .jobs_i(jobs), .products_o(products),
-      .stamp_load_i(stamp_load), .stamp_slot_i(stamp_slot), .edges_o(edges), .emit_slot_i(emit_slot),
-      .emit_gx_o(emit_gx), .emit_gy_o(emit_gy), .release_i(slot_release), .release_slot_i(release_slot),
-      .events_o(front_events)
+      .offer_o(offer), .start_slot_o(start_slot), .plane_o(plane), .quad_o(quad), .limits_o(limits),
+      .setup_valid_o(setup_valid), .take_i(take), .setup_o(setup_i), .jobs_valid_i(jobs_valid), .jobs_i(jobs),
+      .products_o(products), .stamp_load_i(stamp_load), .stamp_slot_i(stamp_slot), .edges_o(edges),
+      .emit_slot_i(emit_slot), .emit_gx_o(emit_gx), .emit_gy_o(emit_gy), .release_i(slot_release),
+      .release_slot_i(release_slot), .events_o(front_events)
   );
 
   // ---- Tiles -------------------------------------------------------------------------------------------------------
@@ -77,7 +77,7 @@ module quadrille (
 
   // ---- Pixels ------------------------------------------------------------------------------------------------------
   quadrille_pixel u_pixel (
-      .clk_i, .rst_ni, .state_i, .start_i(start), .start_slot_i(start_slot), .plane_i(plane), .quad_i(quad),
+      .clk_i, .rst_ni, .state_i, .offer_i(offer), .start_slot_i(start_slot), .plane_i(plane), .quad_i(quad),
       .limits_i(limits), .take_i(take), .setup_i, .pixels_i(pixels), .tile_i(tile), .gx_i(emit_gx), .gy_i(emit_gy),
       .freed_o(freed), .discard_o(discard), .release_o(slot_release), .release_slot_o(release_slot), .fragment_o,
       .fragment_mask_o, .fragment_valid_o, .fragment_ready_i, .busy_o(fragments_busy), .events_o(pixel_events)

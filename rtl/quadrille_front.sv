@@ -14,8 +14,8 @@ module quadrille_front #(
     input logic [quadrille_pkg::VERTEX_BITS-1:0] vertex_i,
     input logic vertex_valid_i,
     output logic vertex_ready_o, assembly_busy_o, slots_busy_o,
-    // A quad starts, in this slot
-    output logic start_o,
+    // A quad starts, in this slot. From when that is free it is offered, in each clock, so that start reaches no memory
+    output logic start_o, offer_o,
     output logic [SLOT-1:0] start_slot_o,
     output logic plane_o,  // any weights that reproduce linear functions give its values
     output logic [quadrille_pkg::QUAD_BITS-1:0] quad_o,
@@ -50,7 +50,8 @@ module quadrille_front #(
   logic [2:0] setup_events;
   assign drop_vertices = full && state.skip[1] && (empty || behind || outside_depth);
   assign move = full && !drop_vertices && !waits_q;
-  assign start_o = waits_q && setup_ready && slot_available;
+  assign offer_o = waits_q && slot_available;
+  assign start_o = offer_o && setup_ready;
   assign assembly_busy_o = assembling || waits_q;
 
   always_ff @(posedge clk_i) begin

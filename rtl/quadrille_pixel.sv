@@ -10,8 +10,8 @@ module quadrille_pixel #(
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
-    // A quad starts, in this slot
-    input logic start_i,
+    // A quad is to start, in this slot
+    input logic offer_i,
     input logic [SLOT-1:0] start_slot_i,
     input logic plane_i,
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
@@ -51,7 +51,7 @@ module quadrille_pixel #(
   end
 
   quadrille_vertex_bank u_bank (
-      .clk_i, .state_i, .start_i, .start_slot_i, .plane_i, .quad_i, .limits_i, .take_i, .setup_i, .reads_i(reads),
+      .clk_i, .state_i, .offer_i, .start_slot_i, .plane_i, .quad_i, .limits_i, .take_i, .setup_i, .reads_i(reads),
       .terms_o(terms), .norm_plane_o(norm_plane), .sum_active_o(sum_active)
   );
 
@@ -90,10 +90,10 @@ module quadrille_pixel #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       `QUADRILLE_ASSERT(assert_blend_race,
-          !start_i || !pixel_at[BLEND_READ] || read.blend != start_slot_i,
+          !offer_i || !pixel_at[BLEND_READ] || read.blend != start_slot_i,
           "blend operands are not read in the clock of their write")
       `QUADRILLE_ASSERT(assert_base_race,
-          !start_i || !pixel_at[BASE_READ] || read.base != start_slot_i,
+          !offer_i || !pixel_at[BASE_READ] || read.base != start_slot_i,
           "bases are not read in the clock of their write")
       `QUADRILLE_ASSERT(assert_length2_race,
           !take_i || !pixel_at[LENGTH2_READ] || read.length2 != setup.slot,

@@ -66,18 +66,19 @@ module quadrille_quad_setup #(
   logic complete_q;  // all are there
   logic done_q;  // a quad is among the outputs
   logic left_out_q;  // one that cannot give a fragment
-  logic last, run_end, advance, hand_over, gone, drop_result, drop_summed;
+  logic last, run_end, load, advance, hand_over, gone, drop_result, drop_summed;
   logic alone;  // one quad at most, but for one that goes and for the outputs, is before the next one
 
   // The step is the last one, and done. With one pair of units the next quad's first result then comes in the very
   // clock after the last of this one; with two pairs a function's reach is a clock behind, so that the steps pause for
   // one.
   assign run_end = run_q && last && !wait_i;
+  assign load = !run_q || run_end;  // whether or not the quad starts, so that start reaches few registers
   assign advance = middle_q && (!sum_q || hand_over || drop_summed);
   assign hand_over = complete_q && !drop_summed && (!done_q || gone);
   assign gone = take_i || drop_result;
   assign alone = !(sum_q && middle_q) || drop_summed;
-  assign ready_o = boxed && (!run_q || (PAIRS == 1 && run_end)) && alone && (!(sum_q || middle_q) || !done_q || gone);
+  assign ready_o = boxed && (PAIRS == 1 ? load : !run_q) && alone && (!(sum_q || middle_q) || !done_q || gone);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -109,7 +110,7 @@ module quadrille_quad_setup #(
   assign sum_ordinary = sum_place_q[PLACE-1];
 
   always_ff @(posedge clk_i) begin
-    if (start_i) begin
+    if (load) begin
       front_ordinary_q <= quad.ordinary;
       front_slot_q <= slot_i;
       front_tiles_q <= {box_x0, box_y0, box_columns, box_rows};
@@ -133,7 +134,7 @@ module quadrille_quad_setup #(
   assign functions[10+20*REACH+6*LENGTH2+:6*EDGE_WIDTH] = {lin_value, lin_gx, lin_gy};
   logic [3:0] negative, zero;  // d_012, d_023, d_123, d_013
   quadrille_setup_steps u_steps (
-      .clk_i, .rst_ni, .state_i, .start_i, .quad_i, .tile_x0_i(box_x0), .tile_y0_i(box_y0), .run_i(run_q),
+      .clk_i, .rst_ni, .state_i, .load_i(load), .quad_i, .tile_x0_i(box_x0), .tile_y0_i(box_y0), .run_i(run_q),
       .ordinary_i(front_ordinary_q), .wait_i, .last_o(last), .jobs_o, .edges_o, .kind_o(kind), .group_o(group),
       .triangle_o(triangle), .negated_o(negated), .second_o(second), .lin_value_i(lin_value), .lin_gx_i(lin_gx),
       .lin_gy_i(lin_gy), .negative_i(negative)

@@ -11,8 +11,8 @@ module quadrille_setup_steps #(
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
-    // The quad that starts, and its first tile
-    input logic start_i,
+    // The quad that may start, and its first tile
+    input logic load_i,
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
     input logic [TC-1:0] tile_x0_i, tile_y0_i,
     // The quad that does its steps: is there one, all its W are ONE
@@ -91,7 +91,7 @@ module quadrille_setup_steps #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (start_i) step_q <= '0;
+    if (load_i) step_q <= '0;
     else step_q <= wait_i ? step_q : to_late ? LATE : step_q + 6'd1;
   end
 
@@ -137,16 +137,16 @@ module quadrille_setup_steps #(
       if (to_corner) begin
         tx_q[g*T+V+1+:T-V-1] <= '0;
         ty_q[g*T+V+1+:T-V-1] <= '0;
-      end else if (start_i) begin
+      end else if (load_i) begin
         tx_q[g*T+V+1+:T-V-1] <= from_origin_x[g*T+V+1+:T-V-1];
         ty_q[g*T+V+1+:T-V-1] <= from_origin_y[g*T+V+1+:T-V-1];
       end
-      if (to_corner || start_i) begin
+      if (to_corner || load_i) begin
         tx_q[g*T+:V+1] <= to_corner ? corner_x[P*(V+1)+:V+1] : from_origin_x[g*T+:V+1];
         ty_q[g*T+:V+1] <= to_corner ? corner_y[P*(V+1)+:V+1] : from_origin_y[g*T+:V+1];
       end
       if (to_one) w_q[g*W+:W] <= W'(1);
-      else if (start_i) w_q[g*W+:W] <= quad.w[g*W+:W];
+      else if (load_i) w_q[g*W+:W] <= quad.w[g*W+:W];
     end
   end
 
@@ -209,7 +209,7 @@ module quadrille_setup_steps #(
   logic front_q;  // the quad is in the middle a clock later
 
   always_ff @(posedge clk_i) begin
-    front_q <= start_i;
+    front_q <= load_i;
     if (rst_ni) begin
       `QUADRILLE_ASSERT(assert_corner_steps,
           !run_i || ordinary_i || step_q < CORNERS - 6'd1 || !front_q,

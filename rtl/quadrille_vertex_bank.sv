@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 `include "quadrille_types.svh"
-// What a pixel needs to know of its quad, by slot: written at start id, k_eff (k, or W without perspective), W, Z,
-// attributes as significand numbers with port exponents, bases, depth limits; when the walk takes the quad squared
-// lengths and class.
+// What a pixel needs to know of its quad, by slot: written while it is offered id, k_eff (k, or W without
+// perspective), W, Z, attributes as significand numbers with port exponents, bases, depth limits; when the walk takes
+// the quad squared lengths and class.
 //
 // Each is read by the slot that the pipeline's register has there. Reads of squared lengths, for interpolation and of
 // bases take two clocks, the others one. Not reset.
@@ -16,8 +16,8 @@ module quadrille_vertex_bank #(
 ) (
     input logic clk_i,
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
-    // Written at start
-    input logic start_i,
+    // Written
+    input logic offer_i,
     input logic [SLOT-1:0] start_slot_i,
     input logic plane_i,
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
@@ -68,7 +68,7 @@ module quadrille_vertex_bank #(
   // Block RAM: a slot that a pixel reads is in use, so it is never the one that is written (asserted).
   logic [BLEND-1:0] write_blend, blend_word;
   quadrille_memory #(.WIDTH(BLEND), .DEPTH(SLOTS), .BLOCK(1)) u_blend (
-      .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i(write_blend), .read_i(1'b1),
+      .clk_i, .write_i(offer_i), .write_place_i(start_slot_i), .write_data_i(write_blend), .read_i(1'b1),
       .read_place_i(reads.blend), .clear_i(1'b0), .data_o(blend_word)
   );
 
@@ -101,16 +101,16 @@ module quadrille_vertex_bank #(
       if (t == 0) begin : gen_k
         // The overrides need the magnitude only.
         quadrille_memory #(.WIDTH(WORD), .DEPTH(SLOTS)) u_k (
-            .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i({k_neg, k_exp, k_sig}),
+            .clk_i, .write_i(offer_i), .write_place_i(start_slot_i), .write_data_i({k_neg, k_exp, k_sig}),
             .read_i(1'b1), .read_place_i(reads.blend), .clear_i(1'b0), .data_o(read_word)
         );
         quadrille_memory #(.WIDTH(WORD), .DEPTH(SLOTS)) u_product_k (
-            .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i({k_neg, k_exp, k_sig}),
+            .clk_i, .write_i(offer_i), .write_place_i(start_slot_i), .write_data_i({k_neg, k_exp, k_sig}),
             .read_i(1'b1), .read_place_i(reads.product), .clear_i(1'b0),
             .data_o({product_k_neg[v], product_k_exp[v*PE+:PE], product_k_sig[v*S+:S]})
         );
         quadrille_memory #(.WIDTH(WORD - 1), .DEPTH(SLOTS)) u_override_k (
-            .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i({k_exp, k_sig}), .read_i(1'b1),
+            .clk_i, .write_i(offer_i), .write_place_i(start_slot_i), .write_data_i({k_exp, k_sig}), .read_i(1'b1),
             .read_place_i(reads.overrides), .clear_i(1'b0), .data_o({override_k_exp[v*PE+:PE], override_k_sig[v*S+:S]})
         );
       end else begin : gen_blend
@@ -132,7 +132,7 @@ module quadrille_vertex_bank #(
   localparam int BASE = N * AO + DB + 1 + LIMITS;
   logic [BASE-1:0] base_word;
   quadrille_memory #(.WIDTH(BASE), .DEPTH(SLOTS), .BLOCK(1)) u_base (
-      .clk_i, .write_i(start_i), .write_place_i(start_slot_i),
+      .clk_i, .write_i(offer_i), .write_place_i(start_slot_i),
       .write_data_i({quad.base_attr, quad.base_depth, limits_i}), .read_i(1'b1), .read_place_i(reads.base),
       .clear_i(1'b0), .data_o(base_word)
   );
@@ -145,14 +145,14 @@ module quadrille_vertex_bank #(
   end
 
   quadrille_memory #(.WIDTH(ID), .DEPTH(SLOTS)) u_id (
-      .clk_i, .write_i(start_i), .write_place_i(start_slot_i), .write_data_i(quad.id), .read_i(1'b1),
+      .clk_i, .write_i(offer_i), .write_place_i(start_slot_i), .write_data_i(quad.id), .read_i(1'b1),
       .read_place_i(reads.outputs), .clear_i(1'b0), .data_o(output_id)
   );
 
   if (quadrille_pkg::PLANE_QUADS != 0) begin : gen_plane
     logic [SLOTS-1:0] plane_q;
 
-    always_ff @(posedge clk_i) if (start_i) plane_q[start_slot_i] <= plane_i;
+    always_ff @(posedge clk_i) if (offer_i) plane_q[start_slot_i] <= plane_i;
 
     always_ff @(posedge clk_i) norm_plane <= plane_q[reads.norm];
 

@@ -32,7 +32,7 @@ EDITS = {
     # tile, and nobody asks whether they miss the scissor.
     "quadrille_quad_setup.sv": [
         ("END_CLOCKS = CLOCKS + PAIRS - 1;", "END_CLOCKS = CLOCKS + 1;"),
-        ("(!run_q || (PAIRS == 1 && run_end))", "!run_q"),
+        ("(PAIRS == 1 ? load : !run_q)", "!run_q"),
         ("front_row_q, jobs.x, jobs.y, jobs.w};", "front_row_q, (4 * (2 * T + W))'(0)};"),
         ("{4{cornered && !sum_ordinary && !hull}}", "4'b0"),
         ("{lin_value, lin_gx, lin_gy};", "{lin_value, lin_gx, lin_gy} & {{VAL{1'b0}}, {VAL{1'b1}}, {2*VAL{1'b0}}, {2*VAL{1'b1}},\n"

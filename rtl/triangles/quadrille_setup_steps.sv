@@ -12,7 +12,7 @@ module quadrille_setup_steps #(
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
     input logic [quadrille_pkg::STATE_BITS-1:0] state_i,
-    input logic start_i,
+    input logic load_i,
     input logic [quadrille_pkg::QUAD_BITS-1:0] quad_i,
     input logic [TC-1:0] tile_x0_i, tile_y0_i,
     input logic run_i, ordinary_i,
@@ -48,7 +48,7 @@ module quadrille_setup_steps #(
   assign {triangle_o, negated_o} = '0;
 
   always_ff @(posedge clk_i) begin
-    if (start_i) step_q <= '0;
+    if (load_i) step_q <= '0;
     else step_q <= step_q + 4'd1;
   end
 
@@ -61,7 +61,7 @@ module quadrille_setup_steps #(
 
   for (genvar g = 0; g < 3; g++) begin : gen_vertex
     always_ff @(posedge clk_i) begin
-      if (start_i) begin
+      if (load_i) begin
         tx_q[g*T+:T] <= quad.x[g*T+:T] - origin_x;
         ty_q[g*T+:T] <= quad.y[g*T+:T] - origin_y;
         w_q[g*W+:W] <= quad.w[g*W+:W];

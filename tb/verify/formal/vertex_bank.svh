@@ -72,7 +72,7 @@
       \gen_vertex[2].gen_term[0].gen_k.u_override_k.words ,
       \gen_vertex[1].gen_term[0].gen_k.u_override_k.words ,
       \gen_vertex[0].gen_term[0].gen_k.u_override_k.words };
-  assign tag = choose && start_i;
+  assign tag = choose && offer_i;
   assign take_tag = take_i && live_q && !taken_q && setup.slot == slot_q;
 
   for (genvar v = 0; v < 4; v++) begin : gen_tag
@@ -123,7 +123,7 @@
       vertex_tag_q <= vertex_tag;
       base_tag_q <= {quad.base_attr, quad.base_depth, limits_i};
       plane_tag_q <= plane_i;
-    end else if (first_q || (start_i && start_slot_i == slot_q)) begin
+    end else if (first_q || (offer_i && start_slot_i == slot_q)) begin
       live_q <= 1'b0;
       taken_q <= 1'b0;
     end else if (take_tag) begin
@@ -151,7 +151,7 @@
     if (!first_q) begin
       assume (state_i == state_q);
       assume (!(take_i && live_q && taken_q && setup.slot == slot_q));
-      assume (!(take_i && start_i && setup.slot == start_slot_i));
+      assume (!(take_i && offer_i && setup.slot == start_slot_i));
       assert (!product_q1 || product_out == k_tag_q);
       assert (!overrides_q1 || override_out == k_magnitude);
       assert (!norm_q1 || norm_plane == plane_tag_q);
