@@ -9,6 +9,7 @@ module quadrille_edge_reach #(
     localparam int GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS
 ) (
     input logic [GRAD-1:0] gx_i, gy_i,
+    input logic gx_zero_i, gy_zero_i,  // what they say of gx, gy: asked for earlier, where there is time
     output logic tie_pos_o, tie_neg_o,
     output logic [REACH-1:0] fall_tile_o, rise_tile_o, fall_block_o, rise_block_o
 );
@@ -23,8 +24,8 @@ module quadrille_edge_reach #(
   assign y_neg = gy_i[GRAD-1];
   assign low = (x_neg ? gx : '0) + (y_neg ? gy : '0);
   assign high = (x_neg ? '0 : gx) + (y_neg ? '0 : gy);
-  assign tie_neg_o = x_neg || (gx_i == '0 && y_neg);
-  assign tie_pos_o = !tie_neg_o && (gx_i != '0 || gy_i != '0);
+  assign tie_neg_o = x_neg || (gx_zero_i && y_neg);
+  assign tie_pos_o = !tie_neg_o && !(gx_zero_i && gy_zero_i);
 
   // (n-1) low, less 1 where a zero counts as negative; (n-1) high, less 1 where it does not count as positive. -x is ~x
   // + 1, and that one or none is the carry-in ({a, 1} + {b, carry}).

@@ -368,7 +368,7 @@ package quadrille_pkg;
   function automatic logic [EXP_BITS+SIGNIFICAND_BITS-1:0] truncated_product(
       input logic [EXP_BITS-1:0] exp, input logic [2*SIGNIFICAND_BITS-1:0] product, input logic nonzero);
     truncated_product = {
-      nonzero ? exp + EXP_BITS'(product[2*SIGNIFICAND_BITS-1]) : EXP_BITS'(0),
+      !nonzero ? EXP_BITS'(0) : product[2*SIGNIFICAND_BITS-1] ? exp + EXP_BITS'(1) : exp,  // the sum before the product
       product[2*SIGNIFICAND_BITS-1] ? product[2*SIGNIFICAND_BITS-1-:SIGNIFICAND_BITS] :
           product[2*SIGNIFICAND_BITS-2-:SIGNIFICAND_BITS]
     };

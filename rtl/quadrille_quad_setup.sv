@@ -64,9 +64,9 @@ module quadrille_quad_setup #(
   logic middle_q;  // a quad waits for results to come
   logic sum_q;  // results are of a quad that is not among the outputs yet
   logic complete_q;  // all are there
-  logic done_q;  // a quad is among the outputs
-  logic left_out_q;  // one that cannot give a fragment
-  logic last, run_end, load, advance, hand_over, gone, drop_result, drop_summed;
+  logic valid_q;  // a quad is among the outputs
+  logic drop_q;  // or was, for it cannot give a fragment
+  logic last, run_end, load, advance, hand_over, left_out, drop_summed;
   logic alone;  // one quad at most, but for one that goes and for the outputs, is before the next one
 
   // The step is the last one, and done. With one pair of units the next quad's first result then comes in the very
@@ -75,10 +75,9 @@ module quadrille_quad_setup #(
   assign run_end = run_q && last && !wait_i;
   assign load = !run_q || run_end;  // whether or not the quad starts, so that start reaches few registers
   assign advance = middle_q && (!sum_q || hand_over || drop_summed);
-  assign hand_over = complete_q && !drop_summed && (!done_q || gone);
-  assign gone = take_i || drop_result;
+  assign hand_over = complete_q && !drop_summed && (!valid_q || take_i);  // but for drops the outputs' enable
   assign alone = !(sum_q && middle_q) || drop_summed;
-  assign ready_o = boxed && (PAIRS == 1 ? load : !run_q) && alone && (!(sum_q || middle_q) || !done_q || gone);
+  assign ready_o = boxed && (PAIRS == 1 ? load : !run_q) && alone && (!(sum_q || middle_q) || !valid_q || take_i);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -86,13 +85,15 @@ module quadrille_quad_setup #(
       front_q <= 1'b0;
       middle_q <= 1'b0;
       sum_q <= 1'b0;
-      done_q <= 1'b0;
+      valid_q <= 1'b0;
+      drop_q <= 1'b0;
     end else begin
       run_q <= start_i || (run_q && !run_end);
       front_q <= start_i;
       middle_q <= front_q || (middle_q && !advance);
       sum_q <= advance || (sum_q && !hand_over && !drop_summed);
-      done_q <= hand_over || (done_q && !gone);
+      valid_q <= hand_over ? !left_out : valid_q && !take_i;
+      drop_q <= hand_over && left_out;
     end
   end
 
@@ -118,7 +119,7 @@ module quadrille_quad_setup #(
     end
     if (front_q) middle_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, jobs.x, jobs.y, jobs.w};
     if (advance) sum_place_q <= middle_place_q;
-    if (hand_over) setup_o <= {sum_place_q[PLACE-2:0], !sum_ordinary, hull, visible, functions};
+    if (complete_q && (!valid_q || take_i)) setup_o <= {sum_place_q[PLACE-2:0], !sum_ordinary, hull, visible, functions};
   end
 
   // ---- Steps, and what comes of them -------------------------------------------------------------------------------
@@ -238,12 +239,8 @@ module quadrille_quad_setup #(
   assign wanted = {{2{state.cull != 2'd1}}, {2{state.cull != 2'd2}}};
   assign turned = (sum_ordinary ? area_signs : visible) & wanted;
   assign drop_summed = sum_q && (end_q[END_CLOCKS-1] || complete_q) && sum_ordinary && state.skip[1] &&
-      (area_signs & wanted) == '0 && !drop_result;
-
-  always_ff @(posedge clk_i) begin
-    if (hand_over) left_out_q <= !sum_ordinary && ((state.skip[1] && turned == '0) || (turned != '0 &&
-        (turned & ~missing) == '0));
-  end
+      (area_signs & wanted) == '0 && !drop_q;
+  assign left_out = !sum_ordinary && ((state.skip[1] && turned == '0) || (turned != '0 && (turned & ~missing) == '0));
 
   if (quadrille_pkg::PERFORMANCE_COUNTERS != 0) begin : gen_count
     logic line_q, job_now;
@@ -251,15 +248,14 @@ module quadrille_quad_setup #(
     always_ff @(posedge clk_i) if (hand_over) line_q <= visible == '0;
 
     assign job_now = run_q && !wait_i && kind != '0;
-    assign events_o = {drop_result ? line_q : area_signs == '0, job_now, front_q || middle_q || sum_q || done_q};
+    assign events_o = {drop_q ? line_q : area_signs == '0, job_now, front_q || middle_q || sum_q || valid_q || drop_q};
   end else begin : gen_no_count
     assign events_o = '0;
   end
 
-  assign drop_result = done_q && left_out_q;
-  assign drop_o = drop_result || drop_summed;
-  assign drop_slot_o = drop_result ? setup_o[quadrille_pkg::SETUP_BITS-1-:SLOT] : sum_place_q[PLACE-2-:SLOT];
-  assign valid_o = done_q && !left_out_q;
+  assign drop_o = drop_q || drop_summed;
+  assign drop_slot_o = drop_q ? setup_o[quadrille_pkg::SETUP_BITS-1-:SLOT] : sum_place_q[PLACE-2-:SLOT];
+  assign valid_o = valid_q;
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin

@@ -50,6 +50,7 @@ module quadrille_setup_functions #(
     logic tie_pos, tie_neg;
     logic [REACH-1:0] fall_tile, rise_tile, fall_block, rise_block;
     logic [GRAD-1:0] reach_gx_q, reach_gy_q;
+    logic gx_zero_q, gy_zero_q;
     assign result0 = products.result0[p*OUT+:OUT];
     assign result1 = products.result1[p*OUT+:OUT];
     assign value = VAL'(result0);
@@ -59,10 +60,10 @@ module quadrille_setup_functions #(
     assign gy = ordinary_job_i ? GRAD'($signed(apart_x[p*RISE+:RISE])) << FRAC : GRAD'(result1);
 
     // The reach of a function whose gradient was loaded in the clock before.
-    always_ff @(posedge clk_i) {reach_gx_q, reach_gy_q} <= {gx, gy};
+    always_ff @(posedge clk_i) {reach_gx_q, reach_gy_q, gx_zero_q, gy_zero_q} <= {gx, gy, gx == '0, gy == '0};
 
     quadrille_edge_reach u_reach (
-        .gx_i(reach_gx_q), .gy_i(reach_gy_q), .tie_pos_o(tie_pos), .tie_neg_o(tie_neg), .fall_tile_o(fall_tile),
+        .gx_i(reach_gx_q), .gy_i(reach_gy_q), .gx_zero_i(gx_zero_q), .gy_zero_i(gy_zero_q), .tie_pos_o(tie_pos), .tie_neg_o(tie_neg), .fall_tile_o(fall_tile),
         .rise_tile_o(rise_tile), .fall_block_o(fall_block), .rise_block_o(rise_block)
     );
 

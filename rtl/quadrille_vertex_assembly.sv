@@ -11,7 +11,8 @@
 // bases.
 module quadrille_vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS, T = quadrille_pkg::T_BITS,
-    localparam int W = quadrille_pkg::W_BITS, ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
+    localparam int E = quadrille_pkg::EXP_BITS, W = quadrille_pkg::W_BITS,
+    localparam int ATTR = quadrille_pkg::ATTRIBUTE_SLOTS * quadrille_pkg::ATTR_PORT_BITS
 ) (
     input logic clk_i,
     input logic rst_ni,  // synchronous, active low
@@ -34,8 +35,12 @@ module quadrille_vertex_assembly #(
   logic ordinary;
   logic [quadrille_pkg::T_BITS-1:0] low_x, high_x, low_y, high_y;
   logic [3:0] w_negs, z_neg;
-  logic [4*quadrille_pkg::PORT_EXP_BITS-1:0] w_exps, k_exp, z_exp;
-  logic [4*quadrille_pkg::SIGNIFICAND_BITS-1:0] w_sigs, k_sig, z_sig;
+  logic [E-1:0] w_exp;  // of the last vertex
+  logic [S-1:0] w_sig;
+  logic [3*PE-1:0] w_exps;  // of v0, v1, v2
+  logic [3*S-1:0] w_sigs;
+  logic [4*quadrille_pkg::PORT_EXP_BITS-1:0] k_exp, z_exp;
+  logic [4*quadrille_pkg::SIGNIFICAND_BITS-1:0] k_sig, z_sig;
   logic [3*quadrille_pkg::ATTRIBUTE_SLOTS*quadrille_pkg::ATTR_PORT_BITS-1:0] attr;
   logic [quadrille_pkg::ATTRIBUTE_SLOTS*quadrille_pkg::ATTR_OUT_BITS-1:0] base_attr;
   logic [quadrille_pkg::DEPTH_BITS:0] base_depth;
@@ -45,8 +50,8 @@ module quadrille_vertex_assembly #(
   assign accept = vertex_valid_i && vertex_ready_o;
   assign vertex_ready_o = !full_q || leave_i;
   assign full_o = full_q;
-  assign quad_o = {id, x, y, w, ordinary, low_x, high_x, low_y, high_y, w_negs, w_exps, w_sigs, k_exp, k_sig, z_neg,
-      z_exp, z_sig, attr, base_attr, base_depth, depth_low, depth_high};
+  assign quad_o = {id, x, y, w, ordinary, low_x, high_x, low_y, high_y, w_negs, w_exp[PE-1:0], w_exps, w_sig, w_sigs,
+      k_exp, k_sig, z_neg, z_exp, z_sig, attr, base_attr, base_depth, depth_low, depth_high};
   assign busy_o = full_q || (count_q != 2'd0);
 
   always_ff @(posedge clk_i) begin
@@ -95,17 +100,15 @@ module quadrille_vertex_assembly #(
       .scissor1_i(state.scissor_y1), .ordinary_i(ordinary), .empty_o(empty_y)
   );
 
-  // W as a significand number: exponent -FRAC..0, which fits the port's width.
-  localparam int E = quadrille_pkg::EXP_BITS;
+  // W as a significand number, a clock after its beat: exponent -FRAC..0, which fits the port's width.
   logic w_neg;
-  logic [W-1:0] w_magnitude;
-  logic [E-1:0] w_exp;
-  logic [S-1:0] w_sig;
+  logic [W-1:0] w_magnitude_q;  // of the last vertex
   assign w_neg = vertex.w[W-1];
-  assign w_magnitude = w_neg ? W'(0) - vertex.w : vertex.w;
+
+  always_ff @(posedge clk_i) if (accept) w_magnitude_q <= w_neg ? W'(0) - vertex.w : vertex.w;
 
   quadrille_fp_normalise #(.WIDTH(W), .REGISTERED(1'b0)) u_w (
-      .clk_i, .active_i(1'b1), .magnitude_i(w_magnitude), .bias_i(E'(0) - E'(quadrille_pkg::FRAC)), .exp_o(w_exp),
+      .clk_i, .active_i(1'b1), .magnitude_i(w_magnitude_q), .bias_i(E'(0) - E'(quadrille_pkg::FRAC)), .exp_o(w_exp),
       .sig_o(w_sig)
   );
 
@@ -124,13 +127,20 @@ module quadrille_vertex_assembly #(
         y[g*T+:T] <= vertex.y;
         w[g*W+:W] <= vertex.w;
         w_negs[g] <= w_neg;
-        w_exps[g*PE+:PE] <= w_exp[PE-1:0];
-        w_sigs[g*S+:S] <= w_sig;
         k_exp[g*PE+:PE] <= vertex.k_exp;
         k_sig[g*S+:S] <= vertex.k_sig;
         z_neg[g] <= vertex.z_neg;
         z_exp[g*PE+:PE] <= vertex.z_exp;
         z_sig[g*S+:S] <= vertex.z_sig;
+      end
+    end
+
+    if (g != 3) begin : gen_w
+      always_ff @(posedge clk_i) begin
+        if (count_q == g + 1) begin
+          w_exps[g*PE+:PE] <= w_exp[PE-1:0];
+          w_sigs[g*S+:S] <= w_sig;
+        end
       end
     end
 

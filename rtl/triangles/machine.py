@@ -24,8 +24,8 @@ EDITS = {
         ("count_q <= count_q + 2'd1;", "count_q <= count_q == 2'd2 ? 2'd0 : count_q + 2'd1;"),
         ("accept && count_q == 2'd3 && !flush_i", "accept && count_q == 2'd2 && !flush_i"),
         ("{id, x, y, w, ordinary,", "{id, {T'(0), x[3*T-1:0]}, {T'(0), y[3*T-1:0]}, {W'(0), w[3*W-1:0]}, ordinary,"),
-        ("w_negs, w_exps, w_sigs, k_exp, k_sig, z_neg,\n      z_exp, z_sig, attr,",
-         "1'b0, w_negs[2:0], PE'(0), w_exps[3*PE-1:0], S'(0), w_sigs[3*S-1:0], PE'(0),\n      k_exp[3*PE-1:0], S'(0), k_sig[3*S-1:0], 1'b0, z_neg[2:0], "
+        ("w_negs, w_exp[PE-1:0], w_exps, w_sig, w_sigs,\n      k_exp, k_sig, z_neg, z_exp, z_sig, attr,",
+         "1'b0, w_negs[2:0], PE'(0), w_exp[PE-1:0], w_exps[2*PE-1:0], S'(0), w_sig, w_sigs[2*S-1:0],\n      PE'(0), k_exp[3*PE-1:0], S'(0), k_sig[3*S-1:0], 1'b0, z_neg[2:0], "
          "PE'(0), z_exp[3*PE-1:0], S'(0),\n      z_sig[3*S-1:0], ATTR'(0), attr[2*ATTR-1:0],"),
     ],
     # The last step has an edge, whose reach comes a clock later, as with two pairs of units. Functions 2, 3, 5 are 0. Vertices are for no

@@ -27,6 +27,8 @@ module edge_both_sides_proof #(
   quadrille_edge_reach u_reach (
       .gx_i(gx),
       .gy_i(gy),
+      .gx_zero_i(gx == '0),
+      .gy_zero_i(gy == '0),
       .tie_pos_o(tie_pos),
       .tie_neg_o(tie_neg),
       .fall_tile_o(unused[0+:REACH]),

@@ -69,7 +69,8 @@
       if (which == 2'(v)) begin
         there = {x[v*T+:T], y[v*T+:T], w[v*W+:W], k_exp[v*PE+:PE], k_sig[v*S+:S], z_neg[v], z_exp[v*PE+:PE], z_sig[v*S+:S], ATTR'(0)};
         if (v != 0) there[0+:ATTR] = attr[((v == 0) ? 0 : v - 1)*ATTR+:ATTR];
-        {w_neg_there, w_exp_there, w_sig_there} = {w_negs[v], w_exps[v*PE+:PE], w_sigs[v*S+:S]};
+        {w_neg_there, w_exp_there, w_sig_there} = {w_negs[v], w_exp[PE-1:0], w_sig};
+        if (held_q != 3'(v + 1)) {w_exp_there, w_sig_there} = {w_exps[(v%3)*PE+:PE], w_sigs[(v%3)*S+:S]};  // in its register
       end
     end
     {w_exp_spec, w_sig_spec} = '0;

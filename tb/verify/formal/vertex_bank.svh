@@ -1,7 +1,7 @@
-  // vertex_bank: from a quad's start to the next start of its slot id, k_eff (or W), W, Z, attributes, bases, depth limits and whether the
+  // vertex_bank: from the last offer of a quad to the next of its slot id, k_eff (or W), W, Z, attributes, bases, depth limits and whether the
   // weights are areas come out of each read port, a clock or two behind its slot; from its take on squared lengths and class. A sum that is
   // not active has terms of zeros.
-  // By induction: one quad, tagged at any start, is followed through its slot, and taken once.
+  // By induction: one quad, tagged at any offer, is followed through its slot, and taken once.
   // Assumed: the draw state does not change (quadrille asserts it); a take of the slot is the tagged quad's (slot_allocation: a slot has one
   // quad at a time).
   logic first_q = 1'b1;

@@ -27,6 +27,8 @@ module replay_coverage (
     quadrille_edge_reach u_reach (
         .gx_i(lin_gx_i[g*GRAD+:GRAD]),
         .gy_i(lin_gy_i[g*GRAD+:GRAD]),
+        .gx_zero_i(lin_gx_i[g*GRAD+:GRAD] == '0),
+        .gy_zero_i(lin_gy_i[g*GRAD+:GRAD] == '0),
         .tie_pos_o(tie_pos_i[g]),
         .tie_neg_o(tie_neg_i[g]),
         .fall_tile_o(unused_reach[(4*g+0)*REACH+:REACH]),
