@@ -119,7 +119,9 @@ module quadrille_quad_setup #(
     end
     if (front_q) middle_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, jobs.x, jobs.y, jobs.w};
     if (advance) sum_place_q <= middle_place_q;
-    if (complete_q && (!valid_q || take_i)) setup_o <= {sum_place_q[PLACE-2:0], !sum_ordinary, hull, visible, functions};
+    if (complete_q && (!valid_q || take_i)) begin
+      setup_o <= {sum_place_q[PLACE-2:0], !sum_ordinary, hull, visible, functions};
+    end
   end
 
   // ---- Steps, and what comes of them -------------------------------------------------------------------------------

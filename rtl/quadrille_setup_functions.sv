@@ -63,8 +63,9 @@ module quadrille_setup_functions #(
     always_ff @(posedge clk_i) {reach_gx_q, reach_gy_q, gx_zero_q, gy_zero_q} <= {gx, gy, gx == '0, gy == '0};
 
     quadrille_edge_reach u_reach (
-        .gx_i(reach_gx_q), .gy_i(reach_gy_q), .gx_zero_i(gx_zero_q), .gy_zero_i(gy_zero_q), .tie_pos_o(tie_pos), .tie_neg_o(tie_neg), .fall_tile_o(fall_tile),
-        .rise_tile_o(rise_tile), .fall_block_o(fall_block), .rise_block_o(rise_block)
+        .gx_i(reach_gx_q), .gy_i(reach_gy_q), .gx_zero_i(gx_zero_q), .gy_zero_i(gy_zero_q), .tie_pos_o(tie_pos),
+        .tie_neg_o(tie_neg), .fall_tile_o(fall_tile), .rise_tile_o(rise_tile), .fall_block_o(fall_block),
+        .rise_block_o(rise_block)
     );
 
     logic unused;
