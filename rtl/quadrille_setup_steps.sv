@@ -62,48 +62,56 @@ module quadrille_setup_steps #(
   localparam logic [5:0] LAST_TOGETHER = (PAIRS == 1) ? LATE + 6'd1 : SIDES - 6'd1;  // without state.skip[3]
   localparam logic [5:0] LAST_SEPARATE = (PAIRS == 1) ? 6'd39 : 6'd23;
 
+  // What a step is, is said of the next one and kept in registers: choosing vertices takes a clock.
   logic to_late;  // the next step is LATE
+  logic [5:0] step;  // the next one
+  logic ordinary;  // its quad
   logic is_function, is_late, is_edge, is_gradient, is_det, is_side, is_corner;
   logic [5:0] det_step, side_step;  // 2 group + half
-  logic side_far;  // from the corner (x1, y1)
+  logic side_far, side_far_q;  // from the corner (x1, y1)
   logic [1:0] side_vertex;
   logic [2:0] group;
-  assign last_o = step_q == (ordinary_i ? LAST_ORDINARY : state.skip[3] ? LAST_SEPARATE : LAST_TOGETHER);
+  logic second, corner_q;
   assign to_late = PAIRS == 1 && !state.skip[3] && step_q == SIDES - 6'd1;
-  assign is_late = PAIRS == 1 && step_q[5:1] == LATE[5:1];
-  assign is_function = step_q < FUNCTIONS_END || is_late;
-  assign is_edge = ordinary_i || (is_function && step_q[0]);
-  assign is_gradient = !ordinary_i && is_function && !step_q[0];
-  assign is_det = !ordinary_i && step_q >= DETERMINANTS && step_q < SIDES;
-  assign is_side = !ordinary_i && step_q >= SIDES && step_q < SIDES + 6'(8 / PAIRS);
-  assign is_corner = !ordinary_i && step_q >= CORNERS && !is_late;
-  assign det_step = step_q - DETERMINANTS;
-  assign second_o = is_corner ? step_q[0] : det_step[0];
-  assign side_step = step_q - SIDES;
+  assign step = load_i ? '0 : wait_i ? step_q : to_late ? LATE : step_q + 6'd1;
+  assign ordinary = load_i ? quad.ordinary : ordinary_i;
+  assign is_late = PAIRS == 1 && step[5:1] == LATE[5:1];
+  assign is_function = step < FUNCTIONS_END || is_late;
+  assign is_edge = ordinary || (is_function && step[0]);
+  assign is_gradient = !ordinary && is_function && !step[0];
+  assign is_det = !ordinary && step >= DETERMINANTS && step < SIDES;
+  assign is_side = !ordinary && step >= SIDES && step < SIDES + 6'(8 / PAIRS);
+  assign is_corner = !ordinary && step >= CORNERS && !is_late;
+  assign det_step = step - DETERMINANTS;
+  assign second = is_corner ? step[0] : det_step[0];
+  assign side_step = step - SIDES;
   assign side_far = (PAIRS == 1) ? side_step[2] : side_step[1];
   assign side_vertex = (PAIRS == 1) ? side_step[1:0] : {side_step[0], 1'b0};
 
   always_comb begin
-    group = step_q[3:1];
-    if (ordinary_i) group = step_q[2:0];
+    group = step[3:1];
+    if (ordinary) group = step[2:0];
     else if (is_late) group = 3'd3;
-    else if (PAIRS == 1 && step_q[3:1] >= 3'd3) group = step_q[3:1] + 3'd1;
+    else if (PAIRS == 1 && step[3:1] >= 3'd3) group = step[3:1] + 3'd1;
   end
 
   always_ff @(posedge clk_i) begin
-    if (load_i) step_q <= '0;
-    else step_q <= wait_i ? step_q : to_late ? LATE : step_q + 6'd1;
+    step_q <= step;
+    last_o <= step == (ordinary ? LAST_ORDINARY : state.skip[3] ? LAST_SEPARATE : LAST_TOGETHER);
+    kind_o <= {is_edge, is_gradient, is_det, is_side, is_corner};
+    group_o <= is_side ? {side_far, side_vertex} : group;
+    second_o <= second;
+    corner_q <= is_corner;
   end
 
   // ---- Corners of the scissor in a vertex's place, in pixels: chosen while the edge's value is multiplied -----------
   logic [PAIRS*EDGE_WIDTH-1:0] edge_words;  // value, gx, gy
   logic [PAIRS*(V+1)-1:0] corner_x, corner_y;
-  logic side_far_q;
   logic [V:0] offset_x, offset_y;  // of a MOVE, a clock after the job
   logic [PAIRS*3-1:0] kinds;
   logic [PAIRS*4-1:0] functions;
 
-  always_ff @(posedge clk_i) side_far_q <= side_far;
+  always_ff @(posedge clk_i) side_far_q <= group_o[2];
 
   for (genvar p = 0; p < PAIRS; p++) begin : gen_corner
     logic far_x, far_y, is_diagonal;  // E20, whose sense is reversed in the triangle 023
@@ -130,7 +138,7 @@ module quadrille_setup_steps #(
     assign from_origin_y[g*T+:T] = quad.y[g*T+:T] - origin_y;
 
     // All but the low bits of a corner are a synchronous reset.
-    assign to_corner = IS_CORNER && run_i && is_corner && !step_q[0];
+    assign to_corner = IS_CORNER && run_i && corner_q && !step_q[0];
     assign to_one = IS_CORNER && run_i && !ordinary_i && state.skip[3] && step_q == CORNERS - 6'd1;
 
     always_ff @(posedge clk_i) begin
@@ -178,7 +186,7 @@ module quadrille_setup_steps #(
         kind = quadrille_pkg::MOVE;
         job_function = 4'd6 + 4'(side_vertex) + 4'(p);
       end else if (is_det || is_corner) begin
-        kind = (second_o ^ is_corner) ? quadrille_pkg::DET_VALUE : quadrille_pkg::DET_GRADIENT;
+        kind = (second ^ is_corner) ? quadrille_pkg::DET_VALUE : quadrille_pkg::DET_GRADIENT;
         job_function = is_det ? 4'd6 + 4'(det_vertex) : 4'd7 + 4'(p);
       end else begin
         kind = is_edge ? quadrille_pkg::EDGE : quadrille_pkg::EDGE_GRADIENT;
@@ -186,11 +194,14 @@ module quadrille_setup_steps #(
       end
     end
 
-    assign kinds[p*3+:3] = kind;
-    assign functions[p*4+:4] = job_function;
-    assign corner_edge = (PAIRS == 1) ? (step_q[5] ? step_q[2:1] : 2'd3) :
-        (p == 0) ? step_q[2:1] - 2'd2 : (step_q[2:1] == 2'd1) ? 2'd0 : step_q[2:1];
-    assign edge_index = is_corner ? corner_edge : det_edge;
+    assign corner_edge = (PAIRS == 1) ? (step[5] ? step[2:1] : 2'd3) :
+        (p == 0) ? step[2:1] - 2'd2 : (step[2:1] == 2'd1) ? 2'd0 : step[2:1];
+
+    always_ff @(posedge clk_i) begin
+      kinds[p*3+:3] <= kind;
+      functions[p*4+:4] <= job_function;
+      edge_index <= is_corner ? corner_edge : det_edge;
+    end
 
     quadrille_one_of_four #(.WIDTH(EDGE_WIDTH)) u_edge (
         .words_i(words), .index_i(edge_index), .word_o(edge_words[p*EDGE_WIDTH+:EDGE_WIDTH])
@@ -199,8 +210,6 @@ module quadrille_setup_steps #(
 
   assign jobs_o = {kinds, functions, tx_q, ty_q, w_q, offset_x, offset_y};
   assign edges_o = edge_words;
-  assign kind_o = {is_edge, is_gradient, is_det, is_side, is_corner};
-  assign group_o = is_side ? {side_far, side_vertex} : group;
 
   logic unused;
   assign unused = ^{det_step[5:3], side_step[5:3], lin_value_i, lin_gx_i, lin_gy_i, negative_i};
