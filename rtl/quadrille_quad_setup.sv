@@ -66,7 +66,7 @@ module quadrille_quad_setup #(
   logic complete_q;  // all are there
   logic valid_q;  // a quad is among the outputs
   logic drop_q;  // or was, for it cannot give a fragment
-  logic last, run_end, load, advance, hand_over, left_out, drop_summed;
+  logic last, run_end, load, advance, outputs_free, hand_over, left_out, drop_summed;
   logic alone;  // one quad at most, but for one that goes and for the outputs, is before the next one
 
   // The step is the last one, and done. With one pair of units the next quad's first result then comes in the very
@@ -75,9 +75,10 @@ module quadrille_quad_setup #(
   assign run_end = run_q && last && !wait_i;
   assign load = !run_q || run_end;  // whether or not the quad starts, so that start reaches few registers
   assign advance = middle_q && (!sum_q || hand_over || drop_summed);
-  assign hand_over = complete_q && !drop_summed && (!valid_q || take_i);  // but for drops the outputs' enable
+  assign outputs_free = !valid_q || take_i;
+  assign hand_over = complete_q && !drop_summed && outputs_free;  // but for drops the outputs' enable
   assign alone = !(sum_q && middle_q) || drop_summed;
-  assign ready_o = boxed && (PAIRS == 1 ? load : !run_q) && alone && (!(sum_q || middle_q) || !valid_q || take_i);
+  assign ready_o = boxed && (PAIRS == 1 ? load : !run_q) && alone && (!(sum_q || middle_q) || outputs_free);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -119,9 +120,7 @@ module quadrille_quad_setup #(
     end
     if (front_q) middle_place_q <= {front_ordinary_q, front_slot_q, front_tiles_q, front_row_q, jobs.x, jobs.y, jobs.w};
     if (advance) sum_place_q <= middle_place_q;
-    if (complete_q && (!valid_q || take_i)) begin
-      setup_o <= {sum_place_q[PLACE-2:0], !sum_ordinary, hull, visible, functions};
-    end
+    if (complete_q && outputs_free) setup_o <= {sum_place_q[PLACE-2:0], !sum_ordinary, hull, visible, functions};
   end
 
   // ---- Steps, and what comes of them -------------------------------------------------------------------------------

@@ -35,5 +35,4 @@ module quadrille_setup_areas #(
           !area_012_next[AREA-1] && area_012_next != '0};
     end
   end
-
 endmodule

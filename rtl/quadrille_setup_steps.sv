@@ -63,15 +63,12 @@ module quadrille_setup_steps #(
   localparam logic [5:0] LAST_SEPARATE = (PAIRS == 1) ? 6'd39 : 6'd23;
 
   // What a step is, is said of the next one and kept in registers: choosing vertices takes a clock.
-  logic to_late;  // the next step is LATE
-  logic [5:0] step;  // the next one
-  logic ordinary;  // its quad
-  logic is_function, is_late, is_edge, is_gradient, is_det, is_side, is_corner;
-  logic [5:0] det_step, side_step;  // 2 group + half
+  logic to_late, ordinary;  // it is LATE; its quad
+  logic is_function, is_late, is_edge, is_gradient, is_det, is_side, is_corner, second;
+  logic [5:0] step, det_step, side_step;  // the next one, 2 group + half
   logic side_far, side_far_q;  // from the corner (x1, y1)
   logic [1:0] side_vertex;
   logic [2:0] group;
-  logic second, corner_q;
   assign to_late = PAIRS == 1 && !state.skip[3] && step_q == SIDES - 6'd1;
   assign step = load_i ? '0 : wait_i ? step_q : to_late ? LATE : step_q + 6'd1;
   assign ordinary = load_i ? quad.ordinary : ordinary_i;
@@ -101,7 +98,6 @@ module quadrille_setup_steps #(
     kind_o <= {is_edge, is_gradient, is_det, is_side, is_corner};
     group_o <= is_side ? {side_far, side_vertex} : group;
     second_o <= second;
-    corner_q <= is_corner;
   end
 
   // ---- Corners of the scissor in a vertex's place, in pixels: chosen while the edge's value is multiplied -----------
@@ -138,7 +134,7 @@ module quadrille_setup_steps #(
     assign from_origin_y[g*T+:T] = quad.y[g*T+:T] - origin_y;
 
     // All but the low bits of a corner are a synchronous reset.
-    assign to_corner = IS_CORNER && run_i && corner_q && !step_q[0];
+    assign to_corner = IS_CORNER && run_i && kind_o[0] && !step_q[0];
     assign to_one = IS_CORNER && run_i && !ordinary_i && state.skip[3] && step_q == CORNERS - 6'd1;
 
     always_ff @(posedge clk_i) begin
