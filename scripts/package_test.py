@@ -106,7 +106,7 @@ def check_version(program, prefix):
 def check_paths(prefix):
     """No file of the package names the source or the build tree."""
     for path in [*prefix.glob("lib*/cmake/Quadrille/*"), *prefix.glob("include/**/*.h*")]:
-        if str(ROOT) in path.read_text():
+        if re.search(rf"(?<![\w}}/.-]){re.escape(str(ROOT))}\b", path.read_text()):  # as a whole path: ROOT may be /quadrille
             fail(f"{path} names {ROOT}")
 
 

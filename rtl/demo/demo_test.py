@@ -42,7 +42,7 @@ class Comparison(unittest.TestCase):
         for x, y in ((4, 6), (5, 6), (4, 7), (5, 7)):  # pixel 2, 3 of the frame buffer; the second quad is nearer
             frame[3 * (640 * y + x):3 * (640 * y + x) + 3] = drawn
         with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
-            file.write("quad,x,y,z,a0,a1\n0,2,3,0.5,0.1,0.1\n1,2,3,0.25,1.5,0.3\n2,2,3,0.25,0.1,0.1\n")
+            file.write("quad,x,y,z,u,v\n0,2,3,0.5,0.1,0.1\n1,2,3,0.25,1.5,0.3\n2,2,3,0.25,0.1,0.1\n")
             file.flush()
             self.assertEqual(frames.compare(bytes(frame), file.name), 4)
             frame[3 * (640 * 7 + 5) + 1] ^= 1

@@ -25,7 +25,7 @@ def expected(fragments):
         at, depth = (int(row["x"]), int(row["y"])), float(row["z"]) * 2**16
         if depth < depths.get(at, FAR):
             depths[at] = depth
-            pixels[at] = colour(float(row["a0"]), float(row["a1"]))
+            pixels[at] = colour(float(row["u"]), float(row["v"]))
     return pixels
 
 
