@@ -9,7 +9,7 @@ module quadrille_edge_reach #(
     localparam int GRAD = quadrille_pkg::GRAD_BITS, REACH = quadrille_pkg::REACH_BITS
 ) (
     input logic [GRAD-1:0] gx_i, gy_i,
-    input logic gx_zero_i, gy_zero_i,  // what they say of gx, gy: asked for earlier, where there is time
+    input logic gx_zero_i, gy_zero_i,  // gx, gy are 0: kept in registers, for the test takes long
     output logic tie_pos_o, tie_neg_o,
     output logic [REACH-1:0] fall_tile_o, rise_tile_o, fall_block_o, rise_block_o
 );

@@ -76,7 +76,7 @@ module quadrille_quad_setup #(
   assign load = !run_q || run_end;  // whether or not the quad starts, so that start reaches few registers
   assign advance = middle_q && (!sum_q || hand_over || drop_summed);
   assign outputs_free = !valid_q || take_i;
-  assign hand_over = complete_q && !drop_summed && outputs_free;  // but for drops the outputs' enable
+  assign hand_over = complete_q && !drop_summed && outputs_free;
   assign alone = !(sum_q && middle_q) || drop_summed;
   assign ready_o = boxed && (PAIRS == 1 ? load : !run_q) && alone && (!(sum_q || middle_q) || outputs_free);
 
