@@ -3,6 +3,7 @@
 # of clang-format 14, Debian 12's: with another the C++ is not checked, exit status 77.
 # `scripts/check_format.sh --fix` formats the C++ files instead.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 mapfile -t files < <(find model golden tb -name '*.cpp' -o -name '*.hpp' -o -name '*.h' | sort)
 [ ${#files[@]} -gt 0 ] || { echo "no C++ file found" >&2; exit 1; }

@@ -15,6 +15,8 @@ import pathlib
 import re
 import sys
 
+from report.program import usage
+
 LAYERS = ("model", "golden", "tb")
 ON_TOP = ("model/page", "model/python")  # for other languages: includes everything, and nothing includes it
 SUFFIXES = {".c", ".cpp", ".hpp", ".h"}
@@ -100,6 +102,7 @@ def lengths(root):
 
 
 def main():
+    usage(__doc__, len(sys.argv) <= 2)
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     edges = includes(root)
     below = {folder: set() for folder, _ in edges}

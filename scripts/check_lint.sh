@@ -4,6 +4,8 @@
 # --default, for that tier of tests: only four configurations, which have every `generate` branch, and not the machine with probes, of
 # which simulators are built with the same warnings.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
+[ $# -gt 0 ] || { usage >&2; exit 2; }
 quadrille=$(realpath "$1") default=${2:-}
 cd "$(dirname "$0")/../rtl"
 tables=$(mktemp -d)

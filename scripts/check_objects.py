@@ -13,6 +13,8 @@ import re
 import subprocess
 import sys
 
+from report.program import usage
+
 TARGET = re.compile(r"\bv[34]::")  # namespaces of code for one target
 
 
@@ -50,6 +52,7 @@ def initialises(code):
 
 
 def main():
+    usage(__doc__, len(sys.argv) > 1)
     wrong, objects, with_avx = [], 0, 0
     for library in sys.argv[1:]:
         code = members(library, "objdump", "-drC", "--no-show-raw-insn")

@@ -18,6 +18,9 @@ import sys
 import tempfile
 import tomllib
 
+from report.program import usage
+
+usage(__doc__, len(sys.argv) == 2)
 PROGRAM, ROOT = os.path.abspath(sys.argv[1]), pathlib.Path(__file__).resolve().parent.parent
 PAGES = {p: p.read_text(encoding="utf-8") for p in sorted(ROOT.rglob("*.md")) if p.relative_to(ROOT).parts[0] != "build"}
 LINES = {"README.md": 120, "tb/DECIDE.md": 120, "rtl/INTEGRATE.md": 120, "golden/EXPLORE.md": 120, "rtl/REJECTED.md": 100}
@@ -183,6 +186,19 @@ def faults(program, *words):
             yield f"no scene {value}"
 
 
+def without_help(scripts):
+    """Scripts whose --help does not end at once, well and with what it says."""
+    def ask(path):
+        try:
+            asked = subprocess.run([path, "--help"], capture_output=True, timeout=60, check=False)
+        except subprocess.TimeoutExpired:
+            return "goes on"
+        return "" if asked.returncode == 0 and asked.stdout and not asked.stderr else f"status {asked.returncode}"
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return [f"{path} --help: {fault}" for path, fault in zip(scripts, pool.map(ask, scripts)) if fault]
+
+
 def slugs(text):
     text = re.sub(r"```.*?```", "", text, flags=re.S)
     return {re.sub(r"[^\w\- ]", "", re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", h).lower()).strip().replace(" ", "-") for h in re.findall(r"^#+ (.*)$", text, re.M)}
@@ -215,6 +231,10 @@ def main():
     sentence = re.search(r"Exit\s+status:([^.]*)", PAGES[ROOT / "README.md"])[1]
     judge("exit statuses", statuses, [f"README.md: no exit status {s}" for s in statuses if not re.search(rf"\b{s} \w", sentence)])
     judge("quoted commands", commands, [f"{path}: `{' '.join(words)}`: {fault}" for path, words in commands for fault in faults(*words)])
+
+    # cosim.sh builds the program that prints its help.
+    scripts = [path for path in SCRIPTS if os.access(path, os.X_OK) and path.name != "cosim.sh"]
+    judge("scripts with --help", scripts, without_help(scripts))
 
     found = [(path, *link) for path, of_page in links.items() for link in of_page]
     judge("relative links", found, [f"{path}: dead link {link}" for path, link, target, heading in found

@@ -3,7 +3,8 @@
 # machine is tried once in each; the default configuration must pass.
 #   scripts/check_rules.sh PATH_TO_QUADRILLE
 set -euo pipefail
-[ $# = 1 ] || { echo "usage: scripts/check_rules.sh PATH_TO_QUADRILLE" >&2; exit 2; }
+source "$(dirname "$0")/help.sh"
+[ $# = 1 ] || { usage >&2; exit 2; }
 quadrille=$(realpath "$1")
 cd "$(dirname "$0")/../rtl"
 work=$(mktemp -d)

@@ -6,9 +6,9 @@
 # Exit status: 0 floors held and exceptions valid, 1 not, or a test failed,
 # 2 usage error, 3 missing tool.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
 case "${1:-}" in
   "" | --judge) ;;
-  -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;
   *) echo "coverage.sh: unknown option $1; --help lists them" >&2; exit 2 ;;
 esac
 source "$(dirname "$0")/setup.sh"

@@ -7,17 +7,17 @@
 # Exit status: 0 done, 1 a target failed (its input is named), 2 usage error,
 # 3 missing package.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
 source "$(dirname "$0")/setup.sh"
 
-usage() { echo "fuzz.sh: $1" >&2; exit 2; }
+refuse() { echo "fuzz.sh: $1" >&2; exit 2; }
 known=$(sed -n 's/^  foreach(target \(.*\))$/\1/p' tb/verify/fuzz/CMakeLists.txt)
 seconds="" seed=1 jobs=$(nproc) targets=()
 while [ $# -gt 0 ]; do
   case "$1" in
-    --help | -h) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
     --hours | --seconds | --seed | --jobs)
-      [[ ${2:-} =~ ^[0-9]+([.][0-9]+)?$ ]] || usage "$1 '${2:-}': expected a number"
-      [[ $1 = --hours || $2 =~ ^[0-9]+$ ]] || usage "$1 $2: expected a whole number"
+      [[ ${2:-} =~ ^[0-9]+([.][0-9]+)?$ ]] || refuse "$1 '${2:-}': expected a number"
+      [[ $1 = --hours || $2 =~ ^[0-9]+$ ]] || refuse "$1 $2: expected a whole number"
       case "$1" in
         --hours) seconds=$(awk "BEGIN { print int(3600 * $2) }") ;;
         --seconds) seconds=$2 ;;
@@ -25,17 +25,17 @@ while [ $# -gt 0 ]; do
         --jobs) jobs=$2 ;;
       esac
       shift 2 ;;
-    -*) usage "unknown option $1; --help lists them" ;;
+    -*) refuse "unknown option $1; --help lists them" ;;
     *)
-      [[ " $known " == *" $1 "* ]] || usage "unknown target '$1'; expected one of $known"
+      [[ " $known " == *" $1 "* ]] || refuse "unknown target '$1'; expected one of $known"
       targets+=("$1")
       shift ;;
   esac
 done
-[ -n "$seconds" ] || usage "expected --hours or --seconds"
+[ -n "$seconds" ] || refuse "expected --hours or --seconds"
 [ ${#targets[@]} -gt 0 ] || read -ra targets <<<"$known"
 each=$((seconds / ${#targets[@]}))
-[ "$each" -gt 0 ] && [ "$jobs" -gt 0 ] || usage "$seconds s for ${#targets[@]} targets in $jobs processes: at least a second for each is expected"
+[ "$each" -gt 0 ] && [ "$jobs" -gt 0 ] || refuse "$seconds s for ${#targets[@]} targets in $jobs processes: at least a second for each is expected"
 
 install_packages "${packages[@]}" clang libclang-rt-14-dev
 cmake --preset fuzz >/dev/null

@@ -3,6 +3,8 @@
 # line.
 #   scripts/golden_changelog.sh CHANGELOG SET
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
+[ $# = 2 ] || { usage >&2; exit 2; }
 hash=$(sha256sum "$2/manifest.json" | cut -c1-16)
 awk -F ' *[|] *' -v file="$1" -v hash="\`$hash\`" '
   function complain(what) { print file ": " what > "/dev/stderr"; bad = 1; exit 1 }

@@ -5,6 +5,7 @@
 # do not count; unreachable ones are listed with the reason.
 # Exit status: 0 all others taken, 1 not.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 level=${1:-1}
 build=${BUILD_DIR:-build/golden_coverage}

@@ -5,6 +5,8 @@
 # --update replaces the set; then add the line that the script names.
 # --quick: no simulators; --default: one per suite; otherwise both.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
+[ $# -gt 0 ] || { usage >&2; exit 2; }
 cd "$(dirname "$0")/.."
 export QUADRILLE
 QUADRILLE=$(realpath "$1")
@@ -18,7 +20,7 @@ generate() {
 }
 
 form=${2:-}
-case $form in "" | --update | --quick | --default) ;; *) sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2 ;; esac
+case $form in "" | --update | --quick | --default) ;; *) usage >&2; exit 2 ;; esac
 if [ "$form" = --update ]; then
   generate "$kept.new"  # --force replaces sets of this format alone
   rm -r "$kept"

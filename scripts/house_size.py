@@ -10,6 +10,8 @@ import re
 import subprocess
 import sys
 
+from report.program import usage
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIMIT = 400  # lines of a file
 LEFT_OUT = re.compile(r"^golden/vectors/kept/|/corpus/|/worst_quads/|/(generated|caught_by)\.json$|^LICENSE")
@@ -46,8 +48,7 @@ def files(commit):
 
 
 def main():
-    if len(sys.argv) > 2 or sys.argv[1:2] in (["--help"], ["-h"]):
-        sys.exit(__doc__)
+    usage(__doc__, len(sys.argv) <= 2)
     totals, lengths = {}, []
     for path, text in files(sys.argv[1] if len(sys.argv) > 1 else None):
         kind, lines = kind_of(path), text.count("\n")

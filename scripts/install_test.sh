@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Installs from a build directory: all that was built, then the program alone. Runs what was installed.
-# Usage: install_test.sh BUILD-DIRECTORY
+#   scripts/install_test.sh BUILD-DIRECTORY
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
+[ $# = 1 ] || { usage >&2; exit 2; }
 build=$(cd "$1" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

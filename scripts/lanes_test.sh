@@ -5,6 +5,7 @@
 #                         compiles them for aarch64, run by QEMU; without the slow ones
 # Exit status: 0 passed, 1 not, 2 usage.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
 source "$(dirname "$0")/setup.sh"
 filter='*' reference=()
 case "${1:-}" in
@@ -19,7 +20,7 @@ case "${1:-}" in
     mapfile -t tests < <(git ls-files 'model/*_test.cpp' 'golden/reference/*_test.cpp' golden/scenes/{same_bytes,corner_boundaries,corner_values}_test.cpp |
       grep -v '^model/\(page\|python\|c_api\)/\|invariants_test\|key_traits_test')  # these need more than GoogleTest
     ;;
-  *) sed -n '2,6s/^# //p' "$0" >&2; exit 2 ;;
+  *) usage >&2; exit 2 ;;
 esac
 install_packages "${packages[@]}" libgtest-dev
 out=$root/build/lanes_$1

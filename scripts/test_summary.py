@@ -14,6 +14,8 @@ import subprocess
 import sys
 import xml.etree.ElementTree
 
+from report.program import usage
+
 FACTOR = 5
 
 
@@ -76,10 +78,7 @@ def summary(times, limit):
 
 
 def main():
-    if len(sys.argv) != 3:
-        asked = sys.argv[1:] in (["--help"], ["-h"])
-        print(__doc__, file=sys.stdout if asked else sys.stderr)
-        return 0 if asked else 2
+    usage(__doc__, len(sys.argv) == 3)
     times = entries(sys.argv[2])
     if not times:
         print("no test was run", file=sys.stderr)

@@ -2,6 +2,8 @@
 # Runs the commands that use threads, with four of them, for ThreadSanitizer (scripts/sanitizers.sh --thread).
 #   scripts/threaded_commands.sh PATH_TO_QUADRILLE
 set -euo pipefail
+source "$(dirname "$0")/help.sh"
+[ $# = 1 ] || { usage >&2; exit 2; }
 quadrille=$(realpath "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

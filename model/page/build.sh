@@ -1,10 +1,14 @@
 #!/usr/bin/env bash
-# Builds the page: build.sh OUTPUT. The tools of PyPI and npm, and the module's own build, go into build/ of the tree.
+# Builds the page:
+#   model/page/build.sh OUTPUT
+# The tools of PyPI and npm, and the module's own build, go into build/ of the tree.
 # Exit status: 0 done, 1 a step failed, 3 a missing tool.
 set -euo pipefail
+source "$(dirname "$0")/../../scripts/help.sh"
+[ $# = 1 ] || { usage >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
-output=${1:?usage: build.sh OUTPUT}
+output=$1
 tools=$root/build/page-tools
 for tool in python3 npm cmake ninja; do
   command -v "$tool" >/dev/null || { echo "page: $tool is missing; scripts/test.sh --page installs it" >&2; exit 3; }

@@ -5,11 +5,12 @@
 # QUADRILLE_TEST_SEED: seed of the pauses (default: 1)
 # Exit status: 0 all agree and the faults were found, 1 otherwise, 2 usage, 3 a missing tool.
 set -euo pipefail
+source "$(dirname "$0")/../../scripts/help.sh"
 simulator=${1:-verilator} lanes=${2:-1} seed=${QUADRILLE_TEST_SEED:-1}
 case $simulator in
   verilator) tool=verilator ;;
   icarus) tool=iverilog ;;
-  *) sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) usage >&2; exit 2 ;;
 esac
 case $lanes in
   1 | 2 | 4) ;;

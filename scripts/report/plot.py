@@ -9,6 +9,7 @@ import sys
 from dataclasses import dataclass, field
 
 from report.files import read_report, reading, write_files
+from report.program import usage
 
 
 @contextlib.contextmanager
@@ -291,10 +292,7 @@ def picture(described):
 def program(doc, writer, draw_report):
     """The whole of a script that draws a report: FILE [DIR]. `draw_report` gives figures by file name. Returns the exit status."""
     given = sys.argv[1:]
-    if len(given) not in (1, 2) or given[0].startswith("-"):
-        asked = given in (["--help"], ["-h"])
-        print(doc, file=sys.stdout if asked else sys.stderr)
-        return 0 if asked else 2
+    usage(doc, len(given) in (1, 2) and not given[0].startswith("-"))
     with reading(given[0], writer):
         files = {file: png(drawn) for file, drawn in draw_report(read_report(given[0])).items()}
     write_files(given[1] if len(given) == 2 else os.path.dirname(os.path.abspath(given[0])), files)

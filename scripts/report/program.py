@@ -27,6 +27,14 @@ def page_option(parser, default):
                              "with what they stand for (default: %(default)s)")
 
 
+def usage(doc, right):
+    """For a script without options: --help prints `doc` and ends it, as arguments do that are not `right`, with status 2."""
+    asked = sys.argv[1:] in (["--help"], ["-h"])
+    if asked or not right:
+        print(doc.strip(), file=sys.stdout if asked else sys.stderr)
+        sys.exit(0 if asked else 2)
+
+
 def end(main):
     """Ends the script with the status that `main` returns, or with that of its exception and the message. SIGTERM and Ctrl-C end it as an exception
     does, so that temporary folders go."""

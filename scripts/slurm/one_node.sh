@@ -4,7 +4,8 @@
 #   scripts/slurm/one_node.sh stop DIR
 # Needs Debian's slurm-wlm and munge. Exit status: 1 it did not come up, 2 usage, 3 a missing package.
 set -euo pipefail
-[ $# -eq 2 ] && [[ $1 =~ ^(start|stop)$ ]] || { sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+source "$(dirname "$0")/../help.sh"
+[ $# -eq 2 ] && [[ $1 =~ ^(start|stop)$ ]] || { usage >&2; exit 2; }
 for tool in munged mungekey slurmctld slurmd; do
   PATH=$PATH:/usr/sbin command -v $tool >/dev/null || { echo "one_node.sh: $tool is missing: apt-get install slurm-wlm munge" >&2; exit 3; }
 done

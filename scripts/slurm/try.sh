@@ -4,6 +4,7 @@
 # golden vectors is requeued after its end. Needs root; installs slurm-wlm and munge; takes minutes.
 #   scripts/slurm/try.sh [--quadrille PROGRAM] [SOAK OPTIONS]    default: --units 40 --limit 20000 --machines 0
 set -euo pipefail
+source "$(dirname "$0")/../help.sh"
 source "$(dirname "$0")/../setup.sh"
 packages=(slurm-wlm munge)
 install_packages

@@ -2,6 +2,7 @@
 # The tier `scripts/test.sh --python`: builds the wheel, installs it into a fresh environment under build/python and runs
 # its tests through ctest. What it needs besides Debian's packages comes from PyPI. Arguments go to ctest.
 set -euo pipefail
+source "$(dirname "$0")/../../../scripts/help.sh"
 source "$(dirname "$0")/../../../scripts/setup.sh"
 install_packages g++ make cmake ninja-build iverilog libassimp-dev perl python3 python3-dev python3-venv
 folder=$root/build/python

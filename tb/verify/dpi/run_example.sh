@@ -3,8 +3,9 @@
 #   tb/verify/dpi/run_example.sh LIBRARY QUADRILLE [KEY=VALUE]...     libquadrille_dpi.so, the program, a configuration
 # Exit status: 0 the RTL agrees with the model and the fault was found, 1 otherwise, 2 usage, 3 no Verilator.
 set -euo pipefail
+source "$(dirname "$0")/../../../scripts/help.sh"
 if [ $# -lt 2 ]; then
-  sed -n '2,4s/^# \{0,1\}//p' "$0" >&2
+  usage >&2
   exit 2
 fi
 command -v verilator >/dev/null || { echo "verilator is missing; on Debian: apt-get install verilator" >&2; exit 3; }

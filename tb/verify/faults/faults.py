@@ -22,6 +22,8 @@ import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+from report.program import usage  # noqa: E402
 RECORD = HERE / "caught_by.json"
 MARKED = re.compile("(.*)«(.*)»(.*)", re.DOTALL)
 
@@ -136,6 +138,7 @@ def pick(items, count, seed=None, key=str):
 
 
 def main():
+    usage(__doc__, len(sys.argv) > 1)
     faults = registry()
     match sys.argv[1:]:
         case ["replays", count]:

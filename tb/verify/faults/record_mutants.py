@@ -19,6 +19,7 @@ import tempfile
 sys.dont_write_bytecode = True
 from faults import HERE, read_record, registry, write_record  # noqa: E402
 from report_mutants import SIDES, class_table  # noqa: E402
+from report.program import usage  # noqa: E402
 # As in checks.cpp; a common fault is put through all but the first three.
 CHECKS = ("lockstep", "assertions", "truth of RTL", "truth", "limits", "functions", "lanes", "float", "kept")
 
@@ -83,14 +84,13 @@ def generated_table():
 
 
 def main():
+    usage(__doc__, len(sys.argv) in (2, 3))
     tables = {"recorded": recorded_table, "generated": generated_table}
     if len(sys.argv) == 2 and sys.argv[1] in tables:
         print(tables[sys.argv[1]](), end="")
-    elif len(sys.argv) in (2, 3) and not sys.argv[1].startswith("-"):
+    else:
         record(sys.argv[1], sys.argv[2] if len(sys.argv) == 3 else "*IsSeen*")
         print("scripts/measure.py --write writes the tables of the pages")
-    else:
-        sys.exit(__doc__)
     return 0
 
 

@@ -25,6 +25,7 @@ import sys
 
 sys.dont_write_bytecode = True
 from faults import ROOT, registry  # noqa: E402
+from report.program import usage  # noqa: E402
 
 LIBRARIES = {"support", "c_api", "examples"}  # folders of model/ without the machine
 SUFFIXES = {"rtl": {".sv"}, "rtl/wrap": {".sv"}, "model": {".cpp", ".hpp"}}
@@ -138,6 +139,7 @@ def write(path, text):
 
 
 def main():
+    usage(__doc__, len(sys.argv) == 2 or sys.argv[2:] == ["wrap"])
     out = pathlib.Path(sys.argv[1])
     if sys.argv[2:] == ["wrap"]:
         found, wrong = copies("rtl/wrap", [fault for fault in registry().values() if fault.of_wrapper])
