@@ -17,9 +17,11 @@
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -209,6 +211,35 @@ View corners_of(const std::vector<std::array<std::array<double, n>, 4>>& list) {
 }
 
 template <std::size_t n>
+std::vector<std::array<std::array<double, n>, 4>> corners_from(const Doubles& values) {
+  std::vector<std::array<std::array<double, n>, 4>> list(values.shape(0));
+  if (!list.empty()) std::memcpy(list.data(), values.data(), values.size() * sizeof(double));
+  return list;
+}
+
+/// All of it, for pickle; what `restore` takes.
+nb::tuple state_of(const nb::handle self) {
+  const auto& q = nb::cast<const Quads&>(self);
+  return nb::make_tuple(vertices_of(self), values_of(q), q.attributes, ids_of(q), q.name, corners_of(q.corners),
+                        corners_of(q.textures), std::array{q.width, q.height}, q.perspective, static_cast<int>(q.cull),
+                        q.notes);
+}
+
+void restore(Quads& self, const nb::tuple& state) {
+  auto* const quads =
+      new (&self) Quads(from_arrays(nb::cast<Doubles>(state[0]), nb::cast<Doubles>(state[1]),
+                                    nb::cast<std::vector<std::string>>(state[2]), nb::cast<Ids>(state[3]), nullptr));
+  quads->name = nb::cast<std::string>(state[4]);
+  quads->corners = corners_from<3>(nb::cast<Doubles>(state[5]));
+  quads->textures = corners_from<2>(nb::cast<Doubles>(state[6]));
+  const auto size = nb::cast<std::array<int, 2>>(state[7]);
+  quads->width = size[0], quads->height = size[1];
+  quads->perspective = nb::cast<bool>(state[8]);
+  quads->cull = static_cast<Cull>(nb::cast<int>(state[9]));
+  quads->notes = nb::cast<std::vector<std::string>>(state[10]);
+}
+
+template <std::size_t n>
 View points_of(const std::vector<std::array<double, n>>& list) {
   std::vector<double> values;
   for (const auto& point : list) values.insert(values.end(), point.begin(), point.end());
@@ -244,9 +275,12 @@ void bind_quads(nb::module_& m) {
            [](const Quads& self) {
              std::string names;
              for (const std::string& name : self.attributes) names += (names.empty() ? " of " : ", ") + name;
-             return "<" + std::to_string(self.quads.size()) + " quads of " + self.name + ", " +
-                    std::to_string(self.attributes.size()) + " attributes" + names + ">";
+             return "<" + std::to_string(self.quads.size()) + (self.quads.size() == 1 ? " quad of " : " quads of ") +
+                    self.name + ", " + std::to_string(self.attributes.size()) +
+                    (self.attributes.size() == 1 ? " attribute" : " attributes") + names + ">";
            })
+      .def("__getstate__", state_of)
+      .def("__setstate__", restore)
       .def("pick", picked, "positions"_a, "The quads at these positions; `quadrille.pick()` takes slices too.")
       .def_ro("name", &Quads::name, "Of the scene, file or family.")
       .def_ro("names", &Quads::attributes, "Names of the attributes.")
@@ -294,6 +328,16 @@ void bind_meshes(nb::module_& m) {
           "load", [](const std::filesystem::path& path) { return golden::load_camera(path.string()); }, "path"_a,
           "Of a JSON file. Raises InputError with file, line and field.")
       .def("text", golden::camera_text, "The camera as such a file's text.")
+      .def("__getstate__",
+           [](const golden::Camera& c) {
+             return nb::make_tuple(c.eye, c.target, c.up, std::array{c.fovy, c.near, c.far}, c.matrix);
+           })
+      .def("__setstate__",
+           [](golden::Camera& self, const std::tuple<golden::Vec3, golden::Vec3, golden::Vec3, golden::Vec3,
+                                                     std::optional<golden::Matrix4>>& state) {
+             const auto& [eye, target, up, lens, matrix] = state;
+             new (&self) golden::Camera{matrix, eye, target, up, lens[0], lens[1], lens[2]};
+           })
       .def_ro("eye", &golden::Camera::eye)
       .def_ro("target", &golden::Camera::target)
       .def_ro("up", &golden::Camera::up)
@@ -337,8 +381,10 @@ void bind_meshes(nb::module_& m) {
   m.def(
       "project",
       [](const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, const std::string& attributes,
-         bool strict) { return projected(mesh, camera, width, height, attribute_set(attributes), strict, "mesh"); },
-      "mesh"_a, "camera"_a, "width"_a, "height"_a, "attributes"_a, "strict"_a);
+         bool strict, std::string name) {
+        return projected(mesh, camera, width, height, attribute_set(attributes), strict, std::move(name));
+      },
+      "mesh"_a, "camera"_a, "width"_a, "height"_a, "attributes"_a, "strict"_a, "name"_a);
 }
 
 }  // namespace

@@ -171,18 +171,19 @@ def project(
     up: Direction = (0, 1, 0),
     view_from: Direction | None = None,
     strict: bool = False,
+    name: str = "mesh",
 ) -> Quads:
     """Quads of a mesh seen by a camera; without one, by one that shows all of it, from the direction `view_from` (mesh
     to eye, in the mesh's space).
 
     Id: 0-based face. A triangle becomes (a, b, c, c); a face with more corners is cut, and refused with `strict`.
-    attributes: as of `scene()`.
+    attributes: as of `scene()`. name: of the result.
     """
     width, height = wholes("size", size, "width, height")
     if camera is None:
         direction = None if view_from is None else _direction("view_from", view_from)
         camera = _core.frame_mesh(mesh, width, height, _direction("up", up), direction)
-    return _core.project(mesh, camera, width, height, attributes, strict)
+    return _core.project(mesh, camera, width, height, attributes, strict, name)
 
 
 def load_mesh(
@@ -204,7 +205,14 @@ def load_mesh(
     if camera is not None and not isinstance(camera, Camera):
         camera = Camera.load(camera)
     return project(
-        Mesh.load(path, merge_pairs), size, camera=camera, attributes=attributes, up=up, view_from=view_from, strict=strict
+        Mesh.load(path, merge_pairs),
+        size,
+        camera=camera,
+        attributes=attributes,
+        up=up,
+        view_from=view_from,
+        strict=strict,
+        name=os.path.basename(path),
     )
 
 

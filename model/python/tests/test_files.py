@@ -1,7 +1,9 @@
 """Own files: an OBJ to an array of u, v, cameras, .quads."""
 
 import base64
+import copy
 import json
+import pickle
 import struct
 
 import numpy as np
@@ -131,6 +133,26 @@ def test_cameras(tmp_path):
     assert front.names == ["u", "v", "nx", "ny", "nz"] and np.allclose(
         front.attributes[0, 0, 2:], [0, np.sqrt(0.2), np.sqrt(0.8)], atol=0.2
     )
+
+
+def test_pickle_and_copies(tmp_path):
+    path = tmp_path / "mesh.obj"
+    path.write_text(MESH)
+    camera = quadrille.Camera(eye=(0, 1, 4), fovy=30)
+    mine = quadrille.as_quads(quadrille.load_mesh(path, (64, 48), camera=camera), ids=[7, 5])
+    matrix = quadrille.Camera(matrix=list(range(16)))
+    culled = next(q for q in map(quadrille.scene, (s["name"] for s in quadrille.scenes(True))) if q.cull != "none")
+    for quads in (mine, culled, quadrille.stress("any_w", 3, attributes=0), quadrille.scene("bowtie").pick([])):
+        for again in (pickle.loads(pickle.dumps(quads)), copy.deepcopy(quads)):
+            for what in ("vertices", "attributes", "ids", "corners"):
+                assert np.array_equal(getattr(again, what), getattr(quads, what)), what
+            for what in ("name", "names", "notes", "size", "perspective", "cull"):
+                assert getattr(again, what) == getattr(quads, what), what
+            assert len(quads) == 0 or quadrille.draw(again).tobytes() == quadrille.draw(quads).tobytes()
+    assert mine.name == "mesh.obj" and repr(mine) == "<2 quads of mesh.obj, 2 attributes of u, v>"
+    assert repr(mine.pick([0])) == "<1 quad of mesh.obj, 2 attributes of u, v>"
+    for one in (camera, matrix):
+        assert pickle.loads(pickle.dumps(one)).text() == one.text()
 
 
 def test_quads_files(tmp_path):
