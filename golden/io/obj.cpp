@@ -33,6 +33,11 @@ class ObjParser {
     if (mesh_.faces.empty()) {
       throw input_error(name_, 0, "no face was found; an OBJ file with at least one 'f' statement is expected");
     }
+    if (const std::size_t coloured = mesh_.colours.size(); coloured != 0 && coloured != mesh_.positions.size()) {
+      mesh_.notes.push_back(name_ + ": " + std::to_string(coloured) + " of " + std::to_string(mesh_.positions.size()) +
+                            " vertices have a colour; none is used");
+      mesh_.colours.clear();
+    }
     return std::move(mesh_);
   }
 
@@ -42,6 +47,8 @@ class ObjParser {
     if (keyword == "v") {
       numbers(tokens, {3, 4, 6, 7}, "3 coordinates, optionally a weight, optionally a colour of 3 numbers");
       mesh_.positions.push_back({values_[0], values_[1], values_[2]});
+      if (const std::size_t n = values_.size(); n > 4)
+        mesh_.colours.push_back({values_[n - 3], values_[n - 2], values_[n - 1]});
     } else if (keyword == "vt") {
       numbers(tokens, {1, 2, 3}, "1 to 3 coordinates");
       mesh_.texcoords.push_back({values_[0], values_.size() > 1 ? values_[1] : 0.0});

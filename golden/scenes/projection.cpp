@@ -287,8 +287,7 @@ Projection project_mesh(const Mesh& mesh, const Camera& camera, int width, int h
   const Matrix4 matrix = camera_matrix(camera, width, height);
   const AttributeSet set = options.attributes;
   if (set == AttributeSet::colour && (mesh.colours.empty() || mesh.colours.size() != mesh.positions.size()))
-    throw std::invalid_argument("the mesh has " + std::to_string(mesh.colours.size()) + " colours for " +
-                                std::to_string(mesh.positions.size()) + " positions");
+    throw std::invalid_argument("the mesh has no colours; one of every vertex is expected");
   const bool wants_uv = set == AttributeSet::uv || set == AttributeSet::uv_normal;
   const bool wants_normal = set == AttributeSet::normal || set == AttributeSet::uv_normal;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) check_face(mesh, f);

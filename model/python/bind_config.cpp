@@ -127,7 +127,7 @@ void bind_class(nb::module_& m) {
       .def("bounds", bounds_of, nb::sig("def bounds(self) -> dict[str, float]"),
            "Bounds of absolute errors against exact arithmetic on the snapped quad: weight (λ′1 to λ′3); attribute and "
            "depth where the "
-           "corners'\nvalues differ by at most 1 (unit of the value).")
+           "corners'\nvalues differ by at most 1 (unit of the value); depth where every w is positive.")
       .def("cost", cost_of, nb::sig("def cost(self) -> dict[str, float]"),
            "Estimated hardware on an ECP5: cost (LUTs with blocks at their price), luts, flip_flops, dsps, block_rams.")
       .def(

@@ -1,23 +1,17 @@
-// Quads: from arrays, scenes, stress families, corner groups, and meshes with a camera.
-#include "golden/io/camera.hpp"
-#include "golden/io/import_mesh.hpp"
-#include "golden/io/merge_pairs.hpp"
-#include "golden/io/mesh_format.hpp"
-#include "golden/io/obj.hpp"
+// Quads: from arrays, scenes, stress families, corner groups and files.
 #include "golden/io/quads_file.hpp"
 #include "golden/methods/method.hpp"
 #include "golden/scenes/corner_quads.hpp"
-#include "golden/scenes/projection.hpp"
 #include "golden/scenes/scenes.hpp"
 #include "golden/scenes/stress.hpp"
 #include "model/python/binding.hpp"
 #include "tb/support/choices.hpp"
+#include "tb/support/errors.hpp"
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -32,19 +26,8 @@ namespace quadrille::python {
 namespace {
 
 using namespace nb::literals;
-using golden::AttributeSet;
 using Doubles = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 using Ids = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
-AttributeSet attribute_set(const std::string& name) {
-  return static_cast<AttributeSet>(
-      tb::choose("attributes", name, {"none", "uv", "normal", "weights", "uv_normal", "position", "colour"}));
-}
-
-std::vector<std::string> names_of(AttributeSet set) {
-  const auto names = golden::attribute_names(set);
-  return {names.begin(), names.end()};
-}
 
 std::vector<std::string> numbered(std::size_t count) {
   std::vector<std::string> names;
@@ -79,53 +62,28 @@ Quads from_arrays(const Doubles& vertices, const Doubles& values, std::vector<st
   return result;
 }
 
-golden::Mesh load_mesh(const std::filesystem::path& file, bool pairs) {
-  const std::string path = file.string();
-  if (const golden::MeshFormat format = golden::format_of_mesh(path); format != golden::MeshFormat::obj) {
-#ifdef QUADRILLE_MESH_IMPORT
-    return golden::import_mesh(path, pairs);
-#else
-    throw golden::InputError(path + ": this build reads no " + std::string(golden::name_of(format)) +
-                             "; install assimp (Debian: libassimp-dev) and build again, or use OBJ");
-#endif
+/// What `make` gives; a name that it does not know is a UsageError.
+auto named(const auto& make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& error) {
+    throw tb::UsageError(error.what());
   }
-  golden::Mesh mesh = golden::load_obj(path);
-  if (pairs) golden::merge_pairs(mesh);
-  return mesh;
-}
-
-/// What a projection gives.
-Quads projected(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, AttributeSet set,
-                bool strict, std::string name) {
-  golden::ProjectOptions options;
-  options.attributes = set;
-  options.strict = strict;
-  golden::Projection projection = golden::project_mesh(mesh, camera, width, height, options);
-  Quads result;
-  result.name = std::move(name);
-  result.quads = std::move(projection.quads);
-  result.attributes = names_of(set);
-  result.corners = std::move(projection.corners);
-  result.textures = std::move(projection.textures);
-  result.width = width;
-  result.height = height;
-  result.notes = mesh.notes;
-  return result;
 }
 
 Quads scene(const std::string& name, int width, int height, const std::string& attributes) {
-  const golden::Scene made = golden::make_scene(name);
-  Quads result = projected(made.mesh, made.camera, width, height, attribute_set(attributes), false, made.name);
+  const golden::Scene made = named([&] { return golden::make_scene(name); });
+  Quads result = projected(made.mesh, made.camera, width, height, attributes, false, made.name);
   result.perspective = made.perspective;
   result.cull = made.cull;
   return result;
 }
 
 Quads stress(const std::string& family, std::size_t count, std::uint64_t seed, int width, int height, int attributes) {
+  const auto known = named([&] { return golden::parse_stress_family(family); });
   Quads result;
   result.name = family;
-  result.quads =
-      golden::make_stress_without_weights(golden::parse_stress_family(family), count, seed, width, height, attributes);
+  result.quads = golden::make_stress_without_weights(known, count, seed, width, height, attributes);
   result.attributes = numbered(static_cast<std::size_t>(attributes));
   result.width = width;
   result.height = height;
@@ -134,9 +92,10 @@ Quads stress(const std::string& family, std::size_t count, std::uint64_t seed, i
 
 Quads corner(const std::string& group, const Config& config, const DrawState& state, std::uint64_t seed,
              int attributes) {
+  const auto known = named([&] { return golden::parse_corner_group(group); });
   Quads result;
   result.name = group;
-  result.quads = golden::make_corner(golden::parse_corner_group(group), config, state, seed, attributes);
+  result.quads = golden::make_corner(known, config, state, seed, attributes);
   result.attributes = numbered(static_cast<std::size_t>(attributes));
   result.width = state.width;
   result.height = state.height;
@@ -170,8 +129,6 @@ Quads picked(const Quads& quads, const std::vector<std::size_t>& positions) {
 
 // ---- Arrays ----
 
-using View = nb::ndarray<nb::numpy, const double>;
-
 /// Without a copy: the vertices lie in the quads, which the array keeps.
 View vertices_of(nb::handle self) {
   const auto& quads = nb::cast<const Quads&>(self).quads;
@@ -179,13 +136,6 @@ View vertices_of(nb::handle self) {
   constexpr std::int64_t between = sizeof(WindowQuad) / sizeof(double);
   const double* const first = quads.empty() ? nullptr : &quads.front().vertex[0].x;
   return View(first, {quads.size(), 4, 4}, self, {between, 4, 1});
-}
-
-template <class Values>
-View copied(Values&& values, std::initializer_list<std::size_t> shape) {
-  auto* const memory = new std::vector<double>(std::forward<Values>(values));
-  const nb::capsule owner(memory, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-  return View(memory->data(), shape, owner);
 }
 
 View values_of(const Quads& self) {
@@ -237,13 +187,6 @@ void restore(Quads& self, const nb::tuple& state) {
   quads->perspective = nb::cast<bool>(state[8]);
   quads->cull = static_cast<Cull>(nb::cast<int>(state[9]));
   quads->notes = nb::cast<std::vector<std::string>>(state[10]);
-}
-
-template <std::size_t n>
-View points_of(const std::vector<std::array<double, n>>& list) {
-  std::vector<double> values;
-  for (const auto& point : list) values.insert(values.end(), point.begin(), point.end());
-  return copied(std::move(values), {list.size(), n});
 }
 
 nb::list listed(const std::vector<golden::SceneInfo>& scenes) {
@@ -311,82 +254,6 @@ void bind_quads(nb::module_& m) {
   m.def("from_arrays", from_arrays, "vertices"_a, "values"_a, "names"_a, "ids"_a.none(), "like"_a.none());
 }
 
-void bind_meshes(nb::module_& m) {
-  nb::class_<golden::Camera>(
-      m, "Camera",
-      "A camera: eye, target, up (mesh's space), fovy (degrees), near, far (distances); or a matrix of 16 numbers, "
-      "row-major,\nclip = M·(x, y, z, 1), y up, z −1 to 1.")
-      .def(
-          "__init__",
-          [](golden::Camera* self, const golden::Vec3& eye, const golden::Vec3& target, const golden::Vec3& up,
-             double fovy, double near, double far, const std::optional<golden::Matrix4>& matrix) {
-            new (self) golden::Camera{matrix, eye, target, up, fovy, near, far};
-          },
-          "eye"_a = golden::Vec3{0, 0, 1}, "target"_a = golden::Vec3{}, "up"_a = golden::Vec3{0, 1, 0}, "fovy"_a = 45.0,
-          "near"_a = 0.1, "far"_a = 100.0, "matrix"_a.none() = nb::none())
-      .def_static(
-          "load", [](const std::filesystem::path& path) { return golden::load_camera(path.string()); }, "path"_a,
-          "Of a JSON file. Raises InputError with file, line and field.")
-      .def("text", golden::camera_text, "The camera as such a file's text.")
-      .def("__getstate__",
-           [](const golden::Camera& c) {
-             return nb::make_tuple(c.eye, c.target, c.up, std::array{c.fovy, c.near, c.far}, c.matrix);
-           })
-      .def("__setstate__",
-           [](golden::Camera& self, const std::tuple<golden::Vec3, golden::Vec3, golden::Vec3, golden::Vec3,
-                                                     std::optional<golden::Matrix4>>& state) {
-             const auto& [eye, target, up, lens, matrix] = state;
-             new (&self) golden::Camera{matrix, eye, target, up, lens[0], lens[1], lens[2]};
-           })
-      .def_ro("eye", &golden::Camera::eye)
-      .def_ro("target", &golden::Camera::target)
-      .def_ro("up", &golden::Camera::up)
-      .def_ro("fovy", &golden::Camera::fovy)
-      .def_ro("near", &golden::Camera::near)
-      .def_ro("far", &golden::Camera::far)
-      .def("__repr__", [](const golden::Camera& self) { return "Camera(" + golden::camera_text(self) + ")"; });
-  nb::class_<golden::Mesh>(m, "Mesh", "A polygon mesh as a file has it.")
-      .def_static(
-          "load", load_mesh, "path"_a, "merge_pairs"_a = false,
-          "Of a file in OBJ (v, vt, vn, f), PLY, OFF or glTF, by its name's ending.\n\n"
-          "merge_pairs: joins neighbouring triangles to quads (golden/io/README.md), which glTF does not hold.\n"
-          "Raises InputError with the file and, of OBJ, the line.")
-      .def_static(
-          "parse", [](const std::string& text, const std::string& name) { return golden::parse_obj(text, name); },
-          "text"_a, "name"_a = "text", "Of an OBJ file's text; `name` stands for the file in messages.")
-      .def_prop_ro(
-          "positions", [](const golden::Mesh& self) { return points_of(self.positions); }, nb::rv_policy::automatic,
-          nb::sig("def positions(self) -> numpy.ndarray"), "(n, 3) float64.")
-      .def_prop_ro(
-          "faces",
-          [](const golden::Mesh& self) {
-            nb::list faces;
-            for (const golden::Face& face : self.faces) {
-              nb::list corners;
-              for (const golden::Corner& corner : face) corners.append(corner.position);
-              faces.append(nb::tuple(corners));
-            }
-            return faces;
-          },
-          nb::sig("def faces(self) -> list[tuple[int, ...]]"), "Of each face the positions of its corners.")
-      .def_ro("notes", &golden::Mesh::notes, "What the reader found that its user should know.")
-      .def_ro("skipped_lines", &golden::Mesh::skipped_lines, "Lines that were valid and not used.");
-  m.def(
-      "frame_mesh",
-      [](const golden::Mesh& mesh, int width, int height, const golden::Vec3& up,
-         const std::optional<golden::Vec3>& from) {
-        return golden::frame_mesh(mesh, width, height, {up, from});
-      },
-      "mesh"_a, "width"_a, "height"_a, "up"_a, "view_from"_a.none());
-  m.def(
-      "project",
-      [](const golden::Mesh& mesh, const golden::Camera& camera, int width, int height, const std::string& attributes,
-         bool strict, std::string name) {
-        return projected(mesh, camera, width, height, attribute_set(attributes), strict, std::move(name));
-      },
-      "mesh"_a, "camera"_a, "width"_a, "height"_a, "attributes"_a, "strict"_a, "name"_a);
-}
-
 }  // namespace
 
 void check_names(const std::vector<std::string>& names) {
@@ -400,7 +267,6 @@ void check_names(const std::vector<std::string>& names) {
 
 void bind_input(nb::module_& m) {
   bind_quads(m);
-  bind_meshes(m);
   m.def("scene", scene, "name"_a, "width"_a, "height"_a, "attributes"_a);
   m.def("list_scenes", [] { return listed(golden::list_scenes()); });
   m.def("list_workloads", [] { return listed(golden::list_workloads()); });

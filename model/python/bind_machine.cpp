@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace quadrille::python {
@@ -18,7 +19,7 @@ using namespace nb::literals;
 /// The machine of the C interface, with names for attributes.
 struct Machine {
   Machine(const Config& config, DrawState state, std::vector<std::string> attributes)
-      : names(std::move(attributes)), inner(config, with_attributes(state, names, config)) {}
+      : names(std::move(attributes)), inner_(config, with_attributes(state, names, config)) {}
 
   static DrawState with_attributes(DrawState state, const std::vector<std::string>& attributes, const Config& config) {
     check_names(attributes);
@@ -27,12 +28,19 @@ struct Machine {
     return state;
   }
 
+  /// For one thread at a time: run() gives up the interpreter's lock.
+  const quadrille_clocked& inner() const {
+    api::require(!running_, QUADRILLE_BUSY, "another thread is in run() of this machine");
+    return inner_;
+  }
+  quadrille_clocked& inner() { return const_cast<quadrille_clocked&>(std::as_const(*this).inner()); }
+
   void push(const Quads& quads) {
     api::require(quads.attributes.size() == names.size(), QUADRILLE_BAD_ARGUMENT,
                  "push: as many attributes as the machine was made for are expected");
     std::vector<SnappedQuad> snapped;
-    for (const WindowQuad& quad : quads.quads) snapped.push_back(snap_quad(quad, inner.config, inner.state));
-    inner.queue.insert(inner.queue.end(), snapped.begin(), snapped.end());
+    for (const WindowQuad& quad : quads.quads) snapped.push_back(snap_quad(quad, inner().config, inner().state));
+    inner().queue.insert(inner().queue.end(), snapped.begin(), snapped.end());
   }
 
   std::uint32_t clock(bool vertex_valid, bool fragment_ready, bool reset, bool clear_hidden, bool flush) {
@@ -40,30 +48,35 @@ struct Machine {
     const std::uint32_t inputs = bit(reset, QUADRILLE_RESET) | bit(vertex_valid, QUADRILLE_VERTEX_VALID) |
                                  bit(fragment_ready, QUADRILLE_FRAGMENT_READY) |
                                  bit(clear_hidden, QUADRILLE_CLEAR_HIDDEN) | bit(flush, QUADRILLE_FLUSH);
-    const std::size_t before = inner.waiting.size();
-    inner.clock(inputs);
+    const std::size_t before = inner().waiting.size();
+    inner().clock(inputs);
     clocks = reset ? 0 : clocks + 1;
-    return static_cast<std::uint32_t>(inner.waiting.size() - before);
+    return static_cast<std::uint32_t>(inner().waiting.size() - before);
   }
 
   std::uint64_t run(std::uint64_t most) {
+    quadrille_clocked& machine = inner();
+    const std::uint64_t before = clocks;
+    struct Running {
+      explicit Running(bool& flag) : flag_(flag) { flag_ = true; }
+      ~Running() { flag_ = false; }
+      bool& flag_;
+    } const running(running_);
     const nb::gil_scoped_release released;
     Interruptible interruptible;
-    std::uint64_t done = 0;
-    for (; done < most && !inner.idle(); ++done) {
-      inner.clock(QUADRILLE_VERTEX_VALID | QUADRILLE_FRAGMENT_READY);
-      if (done % 65536 == 0) interruptible();
+    while (clocks - before < most && !machine.idle()) {
+      machine.clock(QUADRILLE_VERTEX_VALID | QUADRILLE_FRAGMENT_READY);
+      if (++clocks % 65536 == 0) interruptible();
     }
-    clocks += done;
-    return done;
+    return clocks - before;
   }
 
-  FragmentRecords records() const { return {inner.config, {inner.state.depth, false, true, names}}; }
+  FragmentRecords records() const { return {inner().config, {inner().state.depth, false, true, names}}; }
 
   nb::tuple take() {
     FragmentRecords taken = records();
-    std::vector<quadrille_fragment> fragments(inner.waiting.size());
-    inner.waiting.take(fragments.data(), fragments.size());
+    std::vector<quadrille_fragment> fragments(inner().waiting.size());
+    inner().waiting.take(fragments.data(), fragments.size());
     for (const quadrille_fragment& f : fragments) {
       Fragment fragment{f.quad, f.x, f.y, f.front != 0, f.flags, f.depth, {}};
       std::copy_n(f.attribute, fragment.attribute.size(), fragment.attribute.begin());
@@ -74,28 +87,32 @@ struct Machine {
 
   nb::tuple on_offer() const {
     FragmentRecords offered = records();
-    if (const ClockedOutputs now = inner.model.comb(); now.fragment_valid)
+    if (const ClockedOutputs now = inner().model.comb(); now.fragment_valid)
       now.for_each_fragment([&](const Fragment& fragment) { offered.add(fragment); });
     return array_of(std::move(offered));
   }
 
   std::vector<std::string> words() const {
     std::vector<std::string> words;
-    if (const ClockedOutputs now = inner.model.comb(); now.fragment_valid)
-      now.for_each_fragment([&](const Fragment& fragment) { words.push_back(fragment_word(fragment, inner.config)); });
+    if (const ClockedOutputs now = inner().model.comb(); now.fragment_valid)
+      now.for_each_fragment(
+          [&](const Fragment& fragment) { words.push_back(fragment_word(fragment, inner().config)); });
     return words;
   }
 
   nb::dict counters() const {
     nb::dict result;
-    const PerformanceCounters now = inner.model.counters();
+    const PerformanceCounters now = inner().model.counters();
     for (std::size_t i = 0; i < counter_count; ++i) result[std::string(counter_info[i].name).c_str()] = now.value[i];
     return result;
   }
 
   std::vector<std::string> names;
-  quadrille_clocked inner;
   std::uint64_t clocks = 0;
+
+ private:
+  quadrille_clocked inner_;
+  bool running_ = false;  // the interpreter's lock guards it
 };
 
 }  // namespace
@@ -125,17 +142,17 @@ void bind_machine(nb::module_& m) {
       .def("words", &Machine::words)
       .def("counters", &Machine::counters)
       .def_ro("clocks", &Machine::clocks)
-      .def_prop_ro("waiting", [](const Machine& self) { return self.inner.waiting.size(); })
-      .def_prop_ro("queued", [](const Machine& self) { return 4 * self.inner.queue.size() - self.inner.beat; })
-      .def_prop_ro("idle", [](const Machine& self) { return self.inner.idle(); })
-      .def_prop_ro("vertex_ready", [](const Machine& self) { return self.inner.model.comb().vertex_ready; })
-      .def_prop_ro("fragment_valid", [](const Machine& self) { return self.inner.model.comb().fragment_valid; })
+      .def_prop_ro("waiting", [](const Machine& self) { return self.inner().waiting.size(); })
+      .def_prop_ro("queued", [](const Machine& self) { return 4 * self.inner().queue.size() - self.inner().beat; })
+      .def_prop_ro("idle", [](const Machine& self) { return self.inner().idle(); })
+      .def_prop_ro("vertex_ready", [](const Machine& self) { return self.inner().model.comb().vertex_ready; })
+      .def_prop_ro("fragment_valid", [](const Machine& self) { return self.inner().model.comb().fragment_valid; })
       .def_prop_ro("fragment_mask",
                    [](const Machine& self) {
-                     const ClockedOutputs now = self.inner.model.comb();
+                     const ClockedOutputs now = self.inner().model.comb();
                      return now.fragment_valid ? now.fragment_mask() : 0u;
                    })
-      .def_prop_ro("busy", [](const Machine& self) { return self.inner.model.comb().busy; });
+      .def_prop_ro("busy", [](const Machine& self) { return self.inner().model.comb().busy; });
 }
 
 }  // namespace quadrille::python

@@ -30,6 +30,20 @@ struct Quads {
   std::vector<std::string> notes;  ///< what a reader of files found
 };
 
+using View = nb::ndarray<nb::numpy, const double>;
+
+/// An array that owns the values.
+template <class Values>
+View copied(Values&& values, std::initializer_list<std::size_t> shape) {
+  auto* const memory = new std::vector<double>(std::forward<Values>(values));
+  const nb::capsule owner(memory, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+  return View(memory->data(), shape, owner);
+}
+
+/// The quads of a mesh; throws InputError, `name` being the file.
+Quads projected(const golden::Mesh& mesh, const golden::Camera& camera, int width, int height,
+                const std::string& attributes, bool strict, std::string name);
+
 /// The records as bytes, with the fields that numpy.dtype needs: (bytes, [(name, format, offset)], bytes of a record).
 nb::tuple array_of(FragmentRecords&& records);
 
@@ -50,6 +64,7 @@ class Interruptible {
 
 void bind_config(nb::module_& m);
 void bind_input(nb::module_& m);
+void bind_mesh(nb::module_& m);
 void bind_draw(nb::module_& m);
 void bind_explain(nb::module_& m);
 void bind_machine(nb::module_& m);

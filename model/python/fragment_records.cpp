@@ -60,6 +60,7 @@ FragmentRecords::FragmentRecords(const Config& config, const RecordContents& con
   if (contents.depth) depth_ = add_field("depth", "f8", 8);
   for (std::size_t i = 0; i < columns.size(); ++i) values_[i].real = add_field(columns[i].first, "f8", 8);
   fields_.insert(fields_.end(), code_fields.begin(), code_fields.end());
+  std::ranges::sort(fields_, {}, &RecordField::offset);  // as numpy.save wants them
 }
 
 std::size_t FragmentRecords::add_field(const std::string& name, const std::string& format, std::size_t bytes) {

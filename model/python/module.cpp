@@ -26,6 +26,7 @@ NB_MODULE(_core, m) {
   refusal("UsageError", "A name or option that does not exist.", std::type_identity<quadrille::tb::UsageError>());
   quadrille::python::bind_config(m);
   quadrille::python::bind_input(m);
+  quadrille::python::bind_mesh(m);
   quadrille::python::bind_draw(m);
   quadrille::python::bind_explain(m);
   quadrille::python::bind_machine(m);

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._core import Config, Quads
-from ._inputs import QuadsLike, as_quads, whole, wholes
+from ._inputs import QuadsLike, as_quads, configuration, flag, whole, wholes
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -37,9 +37,17 @@ class DrawState(TypedDict, total=False):
     skip: Iterable[str]
 
 
+def _real(what: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}: {value!r}; a number is expected") from None
+
+
 def make_state(
     config: Config,
     size: tuple[int, int] | None,
+    /,
     *,
     scissor: tuple[int, int, int, int] | None = None,
     cull: str = "none",
@@ -65,11 +73,11 @@ def make_state(
         height,
         None if scissor is None else wholes("scissor", scissor, "x0, y0, x1, y1"),
         cull,
-        perspective,
-        depth,
-        znear,
-        zfar,
-        None if skip is None else [skip] if isinstance(skip, str) else list(skip),
+        flag("perspective", perspective),
+        flag("depth", depth),
+        _real("znear", znear),
+        _real("zfar", zfar),
+        None if skip is None else [skip] if isinstance(skip, str) else list(map(str, skip)),
     )
 
 
@@ -106,13 +114,11 @@ def _drawn(
     threads: int | None,
     state: DrawState,
 ) -> npt.NDArray[np.void]:
-    config = config or Config()
+    config = configuration(config)
     given = as_quads(quads, attributes, names=names)
-    return as_array(
-        _core.draw(
-            given, config, state_of(given, config, state), engine, method_name, snapped, weights, thread_count(threads)
-        )
-    )
+    of_draw = state_of(given, config, state)
+    snapped, weights = flag("snapped", snapped), flag("weights", weights)
+    return as_array(_core.draw(given, config, of_draw, engine, method_name, snapped, weights, thread_count(threads)))
 
 
 def draw(
@@ -140,6 +146,7 @@ def draw(
       u, v, …  float64  the attributes by their names
       depth_code, u_code, …  the integers that these are, in units of 2^−depth_bits and 2^−attribute_frac_bits
 
+    More attributes than `attribute_slots`, and ids beyond `quad_id_bits`, are drawn as by a machine that has them.
     The lock of the interpreter is released. Raises SnapError for a quad that cannot be drawn.
     """
     return _drawn(quads, attributes, config, "model", None, True, weights, names, threads, state)
@@ -159,7 +166,8 @@ def truth(
     """The same by exact arithmetic (113 bits, rounded to double), on the quads as the machine snaps them, or as given.
 
     Fields as of `draw()`, without codes; a quad's fragments by y, then x. The machine's values differ by at most
-    `Config.bounds()`; visibility of a quad with the eye in its hull may differ.
+    `Config.bounds()`, which do not hold for the depth of a quad with a w ≤ 0; visibility of a quad with the eye in its
+    hull may differ.
     """
     return _drawn(quads, attributes, config, "truth", None, snapped, weights, names, threads, state)
 
@@ -194,14 +202,17 @@ def method(
     **state: Unpack[DrawState],
 ) -> npt.NDArray[np.void]:
     """The same by one of the papers' methods (`methods()`), such as split02 (two triangles) or refine:20, on the quads
-    as given. Flag 256: the method has no number for the pixel."""
+    as given. Flag 256: the method has no number for the pixel. Ctrl-C ends it after the quad that is drawn."""
+    if not isinstance(name, str):
+        raise TypeError(f"name: {name!r}; the name of a method is expected")
     return _drawn(quads, attributes, None, "truth", name, False, weights, names, threads, state)
 
 
 def fragment_names(fragments: npt.NDArray[np.void]) -> list[str]:
     """Names of the attributes of fragments."""
     known = {"quad", "x", "y", "front", "flags", "depth", "l0", "l1", "l2", "l3"}
-    return [name for name in fragments.dtype.names or () if name not in known and not name.endswith("_code")]
+    names = fragments.dtype.names or ()
+    return [name for name in names if name not in known and name.removesuffix("_code") not in {*names} - {name}]
 
 
 def picture(
@@ -245,7 +256,7 @@ def snap(
     corners' depths; vertex (4,) with x, y, w in units of 2^−(subpixel_bits + homogeneous_frac_bits) relative to pixel
     centres, and the numbers k, z, attribute (a,) of neg, exp, sig: `port_value()`. Raises SnapError.
     """
-    config = config or Config()
+    config = configuration(config)
     given = as_quads(quads, attributes, names=names)
     raw, dtype = _core.snap(given, config, state_of(given, config, state))
     return raw.view(np.dtype(dtype))
@@ -253,5 +264,5 @@ def snap(
 
 def port_value(number: npt.NDArray[np.void], config: Config | None = None) -> npt.NDArray[np.float64]:
     """The value of numbers at the port: (−1)^neg · sig · 2^(exp − (significand_bits − 1))."""
-    bits = (config or Config()).significand_bits
+    bits = configuration(config).significand_bits
     return np.ldexp(np.where(number["neg"], -1.0, 1.0) * number["sig"], number["exp"] - (bits - 1))

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Config, Explanation
 from ._draw import DrawState, state_of
-from ._inputs import QuadsLike, as_quads, wholes
+from ._inputs import QuadsLike, as_quads, configuration, wholes
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -30,7 +30,7 @@ def explain(
 
     `Explanation.json()` has all of it as a text, `explanation_stages()` the numbers of a stage.
     """
-    config = config or Config()
+    config = configuration(config)
     given = as_quads(quads, attributes, names=names)
     return _core.explain(given, config, state_of(given, config, state), *wholes("pixel", pixel, "x, y"))
 

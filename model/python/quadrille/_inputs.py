@@ -38,6 +38,20 @@ def wholes(what: str, values: Any, names: str, least: int = -(2**31)) -> Any:  #
     return tuple(whole(what, value, least) for value in several)
 
 
+def flag(what: str, value: Any) -> bool:
+    """An argument that is True or False, also one of NumPy's."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{what}: {value!r}; True or False is expected")
+    return bool(value)
+
+
+def configuration(config: Config | None) -> Config:
+    """None is the default configuration."""
+    if config is not None and not isinstance(config, Config):
+        raise TypeError(f"config: {config!r}; a quadrille.Config is expected")
+    return config or Config()
+
+
 def _direction(what: str, values: Direction) -> tuple[float, ...]:
     try:
         x, y, z = map(float, values)
@@ -94,7 +108,7 @@ def as_quads(
         raise ValueError(f"names: {len(names)} of {values.shape[2]} attributes")
     numbers = None
     if ids is not None:
-        numbers = np.asarray(ids)
+        numbers = np.asarray(ids, dtype=None if np.size(ids) else np.uint32)
         if (
             numbers.shape != (count,)
             or numbers.dtype.kind not in "iu"
@@ -146,7 +160,7 @@ def corner(
     """Directed quads of a corner group (`corners()`), which a configuration meets exactly."""
     from ._draw import make_state
 
-    config = config or Config()
+    config = configuration(config)
     return _core.corner(
         group, config, make_state(config, size), whole("seed", seed, 0, 2**64 - 1), whole("attributes", attributes, 0)
     )
@@ -204,15 +218,9 @@ def load_mesh(
     """
     if camera is not None and not isinstance(camera, Camera):
         camera = Camera.load(camera)
+    mesh, name = Mesh.load(path, merge_pairs), os.path.basename(path)
     return project(
-        Mesh.load(path, merge_pairs),
-        size,
-        camera=camera,
-        attributes=attributes,
-        up=up,
-        view_from=view_from,
-        strict=strict,
-        name=os.path.basename(path),
+        mesh, size, camera=camera, attributes=attributes, up=up, view_from=view_from, strict=strict, name=name
     )
 
 
@@ -222,5 +230,5 @@ def load_quads(path: StrPath) -> Quads:
 
 
 def save_quads(path: StrPath, quads: Quads) -> None:
-    """Writes a .quads file, from which `load_quads()` gives the same doubles and names."""
+    """Writes a .quads file, from which `load_quads()` gives the same doubles and names; ids are counted anew, from 0."""
     _core.save_quads(path, quads)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Config
 from ._draw import DrawState, as_array, make_state
-from ._inputs import QuadsLike, as_quads, whole
+from ._inputs import QuadsLike, as_quads, configuration, flag, whole
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -26,11 +26,11 @@ class Machine:
             machine.clock(fragment_ready=machine.clocks % 3 != 0)   # a stall every third clock
         fragments = machine.take()
 
-    names: of the attributes of its draws. One thread at a time may use it.
+    names: of the attributes of its draws. While a thread is in `run()`, the others' calls raise RuntimeError.
     """
 
     def __init__(self, config: Config | None = None, *, names: Sequence[str] = (), **state: Unpack[DrawState]) -> None:
-        self.config = config or Config()
+        self.config = configuration(config)
         self.names = list(names)
         options: dict[str, Any] = dict(state)
         self._machine = _core.Machine(
@@ -56,7 +56,9 @@ class Machine:
         accepted. reset empties the queue. clear_hidden forgets hidden tiles (RuntimeError while busy). flush discards a
         quad of which some vertices were taken and not all.
         """
-        return self._machine.clock(vertex_valid, fragment_ready, reset, clear_hidden, flush)
+        inputs = {"vertex_valid": vertex_valid, "fragment_ready": fragment_ready, "reset": reset}
+        inputs |= {"clear_hidden": clear_hidden, "flush": flush}
+        return self._machine.clock(**{name: flag(name, value) for name, value in inputs.items()})
 
     def run(self, most_clocks: int = 2**62) -> int:
         """Clocks without gap or stall until idle, or so many; how many it were."""

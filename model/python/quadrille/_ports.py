@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Config
 from ._draw import DrawState, as_array, make_state, state_of
-from ._inputs import QuadsLike, as_quads
+from ._inputs import QuadsLike, as_quads, configuration
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -27,14 +27,14 @@ def vertex_words(
     **state: Unpack[DrawState],
 ) -> list[str]:
     """`vertex_t` of each vertex in order, four a quad. int(word, 16) is what cocotb assigns to vertex_i."""
-    config = config or Config()
+    config = configuration(config)
     given = as_quads(quads, attributes, names=names)
     return _core.vertex_words(given, config, state_of(given, config, state))
 
 
 def state_word(config: Config | None = None, *, attributes: int = 4, **state: Unpack[DrawState]) -> str:
     """`state_t` of a draw with so many attributes."""
-    config = config or Config()
+    config = configuration(config)
     options: dict[str, Any] = dict(state)
     return _core.state_word(config, make_state(config, options.pop("size", None), **options), attributes)
 
@@ -46,7 +46,7 @@ def fragments_of_words(
 
     words: `fragment_t` of each, as digits or numbers: lane g of fragment_o has the bits from g · FRAGMENT_BITS on.
     """
-    config = config or Config()
+    config = configuration(config)
     digits = (_core.fragment_bits(config) + 3) // 4
     texts = [word if isinstance(word, str) else f"{operator.index(word):0{digits}x}" for word in words]
     return as_array(_core.fragments_of_words(texts, config, depth, list(names)))

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Config
 from ._draw import DrawState, state_of, thread_count
-from ._inputs import QuadsLike, as_quads
+from ._inputs import QuadsLike, as_quads, configuration
 
 if TYPE_CHECKING:
     import pandas
@@ -23,7 +23,7 @@ TEXT = ("status", "reason", "bound_lambda_kind", "bound_attribute_kind", "bound_
 
 
 def _axis(key: str, values: str | int | Iterable[int | str]) -> str:
-    if isinstance(values, (str, int)):
+    if isinstance(values, str) or not isinstance(values, Iterable):
         return f"{key}={values}"
     return f"{key}=" + ",".join(str(value) for value in values)
 
@@ -49,8 +49,10 @@ def sweep(
     Returns a table with a row per configuration and the columns of `sweep_columns()`: a pandas DataFrame where pandas
     is installed, else a structured array. Raises ConfigError for an axis that does not exist.
     """
-    base = config or Config()
+    base = configuration(config)
     given = as_quads(quads, attributes)
+    if axes is not None and not isinstance(axes, Mapping):
+        raise TypeError(f"axes: {axes!r}; a mapping of keys to values is expected")
     if one_at_a_time is None:
         one_at_a_time = not axes
     text = _core.sweep(
@@ -109,6 +111,6 @@ def error_map(
 ) -> npt.NDArray[np.float32]:
     """(height, width) float32: the largest error of a weight at each pixel against exact arithmetic on the snapped
     quads; −1 where nothing is drawn."""
-    config = config or Config()
+    config = configuration(config)
     given = as_quads(quads, attributes)
     return _core.error_map(given, config, state_of(given, config, state), thread_count(threads))

@@ -26,13 +26,6 @@ def test_fields_of_a_square():
         "y",
         "front",
         "flags",
-        "depth",
-        "l0",
-        "l1",
-        "l2",
-        "l3",
-        "u",
-        "v",
         "depth_code",
         "l0_code",
         "l1_code",
@@ -40,6 +33,13 @@ def test_fields_of_a_square():
         "l3_code",
         "u_code",
         "v_code",
+        "depth",
+        "l0",
+        "l1",
+        "l2",
+        "l3",
+        "u",
+        "v",
     )
     assert quadrille.fragment_names(drawn) == ["u", "v"]
     assert sorted(zip(drawn["y"].tolist(), drawn["x"].tolist())) == [
@@ -121,6 +121,9 @@ def test_forms_of_quads():
     none = quadrille.draw(np.zeros((0, 4, 4)), np.zeros((0, 4, 2)), names=["u", "v"])
     assert len(none) == 0 and none["u"].dtype == np.float64
     assert len(quadrille.draw(SQUARE + [100, 0, 0, 0], size=(64, 64))) == 0
+    assert len(quadrille.as_quads(np.zeros((0, 4, 2)), ids=[])) == 0
+    numpy_flags = quadrille.draw(SQUARE, size=(64, 64), perspective=np.True_, weights=np.False_, znear=np.float32(0))
+    assert np.array_equal(numpy_flags, quadrille.draw(SQUARE, size=(64, 64)))
 
 
 @pytest.mark.parametrize(
@@ -205,16 +208,24 @@ def test_forms_of_quads():
             "size: 20x20; there is a fragment in column 29 and one in row 19",
         ),
         (lambda: quadrille.as_quads(SQUARE, ids=[-1]), ValueError, "ids: (1,) whole numbers"),
-        (lambda: quadrille.scene("spher"), ValueError, "sphere"),
+        (lambda: quadrille.scene("spher"), quadrille.UsageError, "sphere"),
+        (lambda: quadrille.corner("flt"), quadrille.UsageError, "flat"),
         (
             lambda: quadrille.scene("sphere", attributes="uw"),
             quadrille.UsageError,
             'unknown attributes "uw"; did you mean "uv"?',
         ),
-        (lambda: quadrille.stress("generl"), ValueError, "general"),
-        (lambda: quadrille.method("splt02", SQUARE), ValueError, "split02"),
+        (lambda: quadrille.stress("generl"), quadrille.UsageError, "general"),
+        (lambda: quadrille.method("splt02", SQUARE), quadrille.UsageError, "split02"),
         (lambda: quadrille.method("adaptive", SQUARE), quadrille.UsageError, "needs corners in object space"),
         (lambda: quadrille.Mesh.parse("v 0 0 0\nf 1 2 3", "my.obj"), quadrille.InputError, "my.obj:2: "),
+        (
+            lambda: quadrille.project(
+                quadrille.Mesh.parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 2 1\nv 1 3 0\nf 1 2 3 4 5"), strict=True, name="a"
+            ),
+            quadrille.InputError,
+            "a: face 0: 5 corners",
+        ),
         (lambda: quadrille.load_mesh("missing.obj"), quadrille.InputError, "missing.obj"),
         (
             lambda: quadrille.project(
@@ -252,6 +263,15 @@ def test_errors(call, error, words):
         (lambda: quadrille.draw(SQUARE, scissor=(0, 0, 9)), "scissor: (0, 0, 9); x0, y0, x1, y1 are expected"),
         (lambda: quadrille.draw(SQUARE, cull=None), "cull: None; none, front or back is expected"),
         (lambda: quadrille.draw(SQUARE, threads=1.5), "threads: 1.5; a whole number, or None for all processors,"),
+        (lambda: quadrille.draw(SQUARE, perspective=1), "perspective: 1; True or False is expected"),
+        (lambda: quadrille.draw(SQUARE, weights="no"), "weights: 'no'; True or False is expected"),
+        (lambda: quadrille.draw(SQUARE, znear="a"), "znear: 'a'; a number is expected"),
+        (lambda: quadrille.draw(SQUARE, config={}), "config: {}; a quadrille.Config is expected"),
+        (lambda: quadrille.snap(SQUARE, config="x"), "config: 'x'; a quadrille.Config is expected"),
+        (lambda: quadrille.method(None, SQUARE), "name: None; the name of a method is expected"),
+        (lambda: quadrille.method("mvc", SQUARE, config=quadrille.Config()), 'unknown keyword "config"'),
+        (lambda: quadrille.sweep(SQUARE, ["significand_bits"]), "axes: ['significand_bits']; a mapping"),
+        (lambda: quadrille.Machine().clock(fragment_ready=1), "fragment_ready: 1; True or False is expected"),
         (lambda: quadrille.draw(SQUARE, zner=0.5), 'unknown keyword "zner"; did you mean "znear"?'),
         (lambda: quadrille.draw(SQUARE, POSITION, names=[1, 2]), "names: [1, 2]; a text for each attribute"),
         (lambda: quadrille.explain(SQUARE, (3.5, 4)), "pixel: 3.5; a whole number is expected"),

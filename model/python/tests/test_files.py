@@ -155,6 +155,37 @@ def test_pickle_and_copies(tmp_path):
         assert pickle.loads(pickle.dumps(one)).text() == one.text()
 
 
+def test_fragments_as_files_and_colours(tmp_path):
+    fragments = quadrille.draw(quadrille.scene("bowtie", (64, 64)), names=["u", "v_code"], weights=True)
+    np.save(tmp_path / "f.npy", fragments)
+    again = np.load(tmp_path / "f.npy")
+    assert again.dtype.names == fragments.dtype.names
+    assert all(np.array_equal(again[name], fragments[name]) for name in again.dtype.names)
+    assert quadrille.fragment_names(fragments) == ["u", "v_code"]
+    coloured = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 0.5 0.25 1\nf 1 2 3 4\n"
+    mesh = quadrille.Mesh.parse(coloured)
+    assert quadrille.project(mesh, attributes="colour").attributes[0].tolist() == [
+        [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.25, 1]
+    ]  # fmt: skip
+    (tmp_path / "partly.obj").write_text(coloured.replace(" 0.5 0.25 1", ""))
+    assert "3 of 4 vertices have a colour" in quadrille.load_mesh(tmp_path / "partly.obj").notes[0]
+    with pytest.raises(quadrille.InputError, match="partly.obj: the mesh has no colours"):
+        quadrille.load_mesh(tmp_path / "partly.obj", attributes="colour")
+
+
+def test_matrix_of_a_camera():
+    square = quadrille.Mesh.parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    camera = quadrille.Camera(matrix=np.eye(4))
+    assert camera.matrix == np.eye(4).ravel().tolist() and quadrille.Camera().matrix is None
+    # The clip square (0, 0) to (1, 1) is the window's upper right quarter.
+    assert quadrille.project(square, (8, 8), camera=camera).vertices[0, :, :2].tolist() == [[4, 4], [8, 4], [8, 0], [4, 0]]
+    for matrix in (np.eye(3), "x" * 16, [1] * 15):
+        with pytest.raises(ValueError, match="matrix: 16 numbers"):
+            quadrille.Camera(matrix=matrix)
+    with pytest.raises(ValueError, match="matrix: eye, target"):
+        quadrille.Camera(matrix=np.eye(4), near=1)
+
+
 def test_quads_files(tmp_path):
     quads = quadrille.stress("any_w", 20, attributes=3)
     quadrille.save_quads(tmp_path / "a.quads", quads)

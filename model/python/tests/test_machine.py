@@ -1,5 +1,10 @@
 """The clocked model from Python."""
 
+import os
+import signal
+import threading
+import time
+
 import numpy as np
 import pytest
 
@@ -42,6 +47,32 @@ def test_beat_by_beat_with_stalls():
     for name in ("quad", "x", "y", "flags", "depth_code"):
         assert np.array_equal(taken[name], drawn[name])
     assert np.array_equal(taken["u_code"], drawn["a0_code"])
+
+
+def test_interrupted_and_shared_between_threads():
+    large = np.array([[[0, 0], [1000, 1], [1020, 1020], [0, 1000]]], float)
+    machine = quadrille.Machine(size=(1024, 1024))
+    machine.push(large)
+    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        machine.run()
+        time.sleep(10)  # of a machine that is done before
+    assert machine.clocks == machine.counters["clocks"] > 0
+    machine.run()
+    assert machine.clocks == machine.counters["clocks"]
+
+    machine.push(large)
+    running = threading.Thread(target=machine.run)
+    running.start()
+    refused = 0
+    while running.is_alive():
+        try:
+            assert machine.waiting >= 0
+        except RuntimeError as error:
+            assert "another thread is in run()" in str(error)
+            refused += 1
+    running.join()
+    assert refused > 0 and machine.idle
 
 
 def test_reset_flush_and_errors():

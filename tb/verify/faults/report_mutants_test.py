@@ -98,7 +98,7 @@ class Report(unittest.TestCase):
     def test_one_build_at_a_time(self):
         """mutate.sh, of which every task of an array sets up and builds."""
         tree, tools = self.build / "clone", self.build / "tools"
-        for script in ("mutate.sh", "setup.sh"):
+        for script in ("mutate.sh", "setup.sh", "help.sh"):
             (tree / "scripts").mkdir(parents=True, exist_ok=True)
             shutil.copy(HERE.parents[2] / "scripts" / script, tree / "scripts" / script)
         (tree / "tb/verify/faults").mkdir(parents=True)
