@@ -16,6 +16,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -64,6 +65,14 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::
     }
   }
   return fail(exit_usage, text + "; see `" + place + " --help`");
+}
+
+/// An option given without a value, as by a variable of the shell that is not set, is no option left out.
+void refuse_empty_values(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_expected_max() > 0 && std::ranges::count(option->results(), "") != 0)
+      throw UsageError(option->get_name() + ": the value is empty");
+  for (const CLI::App* command : app.get_subcommands()) refuse_empty_values(*command);
 }
 
 /// The commands of the studies in the core: names, upon which main() calls the other program.
@@ -127,6 +136,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return parse_failure(app, error, invocation.arguments);
   }
+  refuse_empty_values(app);
   return invocation.run();
 }
 

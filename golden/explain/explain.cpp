@@ -60,11 +60,12 @@ Explanation explain_one(const PipelineContext& context, const SnappedQuad& snapp
   return out;
 }
 
-/// The nearest of what is drawn, by the codes that the depth buffer has; of equal ones the earlier quad.
+/// With a depth test the nearest of what is drawn, by the codes that the depth buffer has, of equal ones the earlier
+/// quad; without one the last.
 void mark_seen(std::vector<Explanation>& all, const std::vector<std::uint32_t>& depth, bool by_depth) {
   std::size_t best = all.size();
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].outcome == Outcome::drawn && (best == all.size() || (by_depth && depth[i] < depth[best]))) best = i;
+    if (all[i].outcome == Outcome::drawn && (best == all.size() || !by_depth || depth[i] < depth[best])) best = i;
   if (best < all.size()) all[best].seen = true;
 }
 

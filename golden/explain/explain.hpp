@@ -100,7 +100,7 @@ struct Explanation {
   QuadReject reject = QuadReject::none;  ///< of left_out
   std::string why;                       ///< a sentence: the rule that covered the pixel or rejected it
   double missed_by = 0;                  ///< of outside: px from the quad's outline; infinite if some w <= 0
-  bool seen = false;                     ///< nearest of the fragments at the pixel (depth test LESS), or the only one
+  bool seen = false;  ///< of the fragments at the pixel the nearest (depth test LESS), or without depth the last
 
   bool homogeneous = false;
   int clause = 0;                  ///< of expression (12): 1 or 2; 0: none holds
@@ -133,5 +133,8 @@ std::string to_text(const Explanation& explanation, bool whole = false);
 std::string to_html(std::span<const Explanation> explanations, const std::string& title, const std::string& command);
 /// Of a pixel that no quad covers: how many each rule rejected, and the nearest of them.
 std::string summary(std::span<const Explanation> explanations);
+
+/// Of the quads outside the one that misses the pixel by least; null: none is outside.
+const Explanation* nearest_outside(std::span<const Explanation> explanations);
 
 }  // namespace quadrille::explain

@@ -11,9 +11,8 @@ namespace quadrille::explain {
 const char* const legend =
     "exact: the same formula in 113 bits on the snapped corners. ulp: the error, value - exact, in last stored "
     "places.\n"
-    "bound: |error| as a part of what is proved or specified; 'none' means no error is possible. unsnapped: exact, of "
-    "the\n"
-    "corners as given, before they became integers.";
+    "bound: |error| as a part of what is proved or specified; 'none' means no error is possible, a blank that no\n"
+    "bound is known. unsnapped: exact, of the corners as given, before they became integers.";
 
 namespace {
 
@@ -172,7 +171,7 @@ std::string sentence(const std::string& why) {
 
 std::string headline(const Explanation& e) {
   std::string text = "quad " + std::to_string(e.quad) + ": ";
-  if (e.outcome == Outcome::drawn) return text + (e.seen ? "drawn" : "drawn, but another quad is in front of it");
+  if (e.outcome == Outcome::drawn) return text + (e.seen ? "drawn" : "drawn, but another quad is seen here");
   return text + "not drawn (" + outcome_name(e.outcome) + ")";
 }
 
@@ -217,13 +216,17 @@ std::string near_text(const Explanation& e, bool nearest) {
 
 }  // namespace
 
+const Explanation* nearest_outside(std::span<const Explanation> all) {
+  const Explanation* nearest = nullptr;
+  for (const Explanation& e : all)
+    if (e.outcome == Outcome::outside && (nearest == nullptr || e.missed_by < nearest->missed_by)) nearest = &e;
+  return nearest;
+}
+
 std::string summary(std::span<const Explanation> all) {
   std::map<Outcome, std::size_t> count;
-  const Explanation* nearest = nullptr;
-  for (const Explanation& e : all) {
-    ++count[e.outcome];
-    if (e.outcome == Outcome::outside && (nearest == nullptr || e.missed_by < nearest->missed_by)) nearest = &e;
-  }
+  const Explanation* const nearest = nearest_outside(all);
+  for (const Explanation& e : all) ++count[e.outcome];
   std::string out;
   for (const auto& [outcome, quads] : count) {
     if (outcome == Outcome::drawn) continue;

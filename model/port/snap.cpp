@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -42,11 +43,18 @@ void check_vertex(const WindowVertex& v) {
   if (extent < 1 / largest_magnitude) throw Rejected{"x, y and w are all smaller than 2^-80"};
 }
 
+std::string short_digits(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.9g", value);
+  return text.data();
+}
+
 void check_attribute(double value, std::size_t slot, const Config& config) {
   if (!std::isfinite(value)) throw Rejected{"attribute " + std::to_string(slot) + " is NaN or infinite"};
   if (!(std::fabs(value) < std::ldexp(1.0, config.attribute_int_bits)))
-    throw Rejected{"attribute " + std::to_string(slot) + " = " + std::to_string(value) +
-                   " does not fit attribute_int_bits = " + std::to_string(config.attribute_int_bits)};
+    throw Rejected{"attribute " + std::to_string(slot) + " = " + short_digits(value) +
+                   " does not fit attribute_int_bits = " + std::to_string(config.attribute_int_bits) + "; " +
+                   std::to_string(std::ilogb(value) + 1) + " would hold it"};
 }
 
 /// n/d to nearest, ties to even, S significant bits. Exponents below the port's range become zero.

@@ -1,5 +1,6 @@
 // Meshes and cameras, and the quads that they give.
 #include "golden/io/camera.hpp"
+#include "golden/io/error.hpp"
 #include "golden/io/import_mesh.hpp"
 #include "golden/io/merge_pairs.hpp"
 #include "golden/io/mesh_format.hpp"

@@ -103,7 +103,7 @@ int explain_pixel(const ExplainOptions& options, const Invocation& invocation) {
     json["quads"] = quads.size();
     json["explanations"] = nlohmann::ordered_json::array();
     for (const Explanation& e : all)
-      if (shown(e) || e.outcome != explain::Outcome::outside)
+      if (shown(e) || e.outcome != explain::Outcome::outside || &e == explain::nearest_outside(all))
         json["explanations"].push_back(nlohmann::ordered_json::parse(explain::to_json(e)));
     golden::save_json(options.common.json, json);
   }

@@ -162,7 +162,7 @@ void add_fragments_command(CLI::App& app, Invocation& invocation) {
            "    8  on two edges\n"
            "   16  decided by the tie rule\n"
            "   32  of a homogeneous quad\n"
-           "   64  notch: neighbouring areas differ in sign (with notch_exact)\n"
+           "   64  notch: neighbouring areas differ in sign (rtl, model with notch_exact)\n"
            "  128  saturated\n"
            "  256  undefined: the numbers are invalid (float, fp32, shader)",
            "0 done; 2 usage or input error; 3 missing tool",

@@ -77,8 +77,10 @@ std::vector<const Suite*> shard_of(const std::vector<const Suite*>& suites, cons
 /// needs none, the weights.
 std::unique_ptr<InputSuite> input_suite(const GenerateCommandOptions& options, const Config& config,
                                         std::string& spelled) {
-  if (!options.suites.empty()) throw UsageError("--suite conflicts with an input of your own");
-  if (options.level != 1) throw UsageError("--level conflicts with an input of your own");
+  if (!options.suites.empty())
+    throw UsageError("--suite conflicts with a draw of your own (an input, --size, --cull, --shade, …)");
+  if (options.level != 1)
+    throw UsageError("--level conflicts with a draw of your own (an input, --size, --cull, --shade, …)");
   CommonOptions common = options.common;
   if (!options.size.empty()) common.size = options.size;
   DrawState state = options.state.state(common, config);

@@ -126,8 +126,9 @@ void need_colours(const golden::Mesh& mesh, const DrawInput& input) {
 void need_no_object(const DrawInput& input) {
   if (input.shade == "planes" || input.shade == "colour")
     throw UsageError("--shade " + input.shade + ": the quads of " + input.name + " have no " +
-                     (input.shade == "planes" ? "positions in space" : "colours") + "; use --scene" +
-                     (input.shade == "planes" ? " or --mesh" : ""));
+                     (input.shade == "planes" ? "positions in space; use --scene or --mesh"
+                                              : "colours; a mesh may have them, or a .quads file with the line "
+                                                "# attributes: red green blue"));
 }
 
 /// Projects, with what is wrong told as an input error of `place`.
@@ -322,6 +323,8 @@ DrawInput load_input(const InputOptions& options, const std::string& shade, cons
       throw UsageError(std::string(name) + " conflicts with --camera " + options.camera);
   }
   if (options.merge_pairs && options.mesh.empty()) throw UsageError("--merge-pairs needs --mesh");
+  if (options.strict && options.mesh.empty()) throw UsageError("--strict needs --mesh");
+  if (options.count != InputOptions().count && options.stress.empty()) throw UsageError("--count needs --stress");
   if (!shade.empty()) choose("shading", shade, shade_modes());
   DrawInput input;
   if (!options.scene.empty())

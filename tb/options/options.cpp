@@ -328,7 +328,7 @@ void InputOptions::add_to(CLI::App& app) {
   app.add_option("--corner", corner, "Directed quads of a rare case; `quadrille scenes --corner` lists them")
       ->type_name("GROUP")
       ->group(group);
-  app.add_flag("--strict", strict, "Refuse faces with more than four corners")->group(group);
+  app.add_flag("--strict", strict, "Refuse faces of --mesh with more than four corners")->group(group);
 }
 
 void add_attributes_option(CLI::App& app, std::string& shade) {
