@@ -70,7 +70,7 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::
 /// An option given without a value, as by a variable of the shell that is not set, is no option left out.
 void refuse_empty_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
-    if (option->get_expected_max() > 0 && std::ranges::count(option->results(), "") != 0)
+    if (option->get_expected_min() > 0 && std::ranges::count(option->results(), "") != 0)
       throw UsageError(option->get_name() + ": the value is empty");
   for (const CLI::App* command : app.get_subcommands()) refuse_empty_values(*command);
 }

@@ -190,6 +190,9 @@ TEST(Explain, TheNearestQuadIsSeen) {
     return out;
   };
   EXPECT_EQ(seen(state64()), (std::vector{0, 1, 0, 0}));  // of equal depths the earlier one
+  DrawState no_depth = state64();
+  no_depth.depth = false;
+  EXPECT_EQ(seen(no_depth), (std::vector{0, 0, 1, 0}));  // the last that is drawn
   const std::vector<Explanation> all = explain(Config{}, state64(), quads, 20, 20);
   EXPECT_EQ(all[1].quad, 101u);
   EXPECT_EQ(all[1].index, 1u);

@@ -55,7 +55,7 @@ TEST_F(Cli, ExportRefuses) {
   refuses(2, "export --out ip --prefix Left", {"--prefix Left", "lower case"});
   refuses(2, "export --out ip --prefix 2d", {"--prefix 2d", "a letter or _ first"});
   refuses(2, "export --out ip --prefix small", {"--prefix small", "keyword"});
-  refuses(2, "export --out ip --prefix ''", {"--prefix", "lower case"});
+  refuses(2, "export --out ip --prefix ''", {"--prefix", "empty"});
   refuses(2, "export --out ip --set significand_bits=40", {"significand_bits"});
   EXPECT_FALSE(fs::exists(file("ip")));
   // Nothing is replaced when something cannot be.

@@ -471,7 +471,7 @@ TEST_F(GoldenCli, TablesAreTheConstantsOfTheRtl) {
 TEST_F(GoldenCli, RefusesWhatItCannotDo) {
   refuses(2, "golden generate", {"--out"});
   refuses(2, "golden generate --suite weigths --out set", {"unknown suite \"weigths\"", "did you mean \"weights\""});
-  refuses(2, "golden generate --suite '' --out set", {"unknown suite \"\""});
+  refuses(2, "golden generate --suite '' --out set", {"--suite: the value is empty"});
   refuses(2, "golden generate --level 3 --out set", {"--level"});
   refuses(2, "golden generate --seed -1 --out set", {"from 0 to 18446744073709551615"});
   refuses(2, "golden generate --set significand_bits=99 --out set", {"significand_bits"});

@@ -66,7 +66,7 @@ def test_truth_is_exact_where_weights_do_not_matter():
 
 def test_depth_off_and_wide_codes():
     drawn = quadrille.draw(SQUARE, POSITION, size=(64, 64), depth=False)
-    assert drawn.dtype.names == ("quad", "x", "y", "front", "flags", "a0", "a1", "a0_code", "a1_code")
+    assert drawn.dtype.names == ("quad", "x", "y", "front", "flags", "a0_code", "a1_code", "a0", "a1")
     assert drawn.dtype["a0_code"] == np.int32
     wide = quadrille.draw(SQUARE, POSITION * 60, size=(64, 64), config=quadrille.Config(attribute_frac_bits=30))
     assert wide.dtype["a0_code"] == np.int64
