@@ -74,7 +74,7 @@ module quadrille_quad_setup #(
   // one.
   assign run_end = run_q && last && !wait_i;
   assign load = !run_q || run_end;  // whether or not the quad starts, so that start reaches few registers
-  assign advance = middle_q && (!sum_q || hand_over || drop_summed);
+  assign advance = middle_q && (!sum_q || (complete_q && outputs_free) || drop_summed);
   assign outputs_free = !valid_q || take_i;
   assign hand_over = complete_q && !drop_summed && outputs_free;
   assign alone = !(sum_q && middle_q) || drop_summed;

@@ -60,17 +60,18 @@ module quadrille_tile_ring #(
   assign context_o = {emit_slot, emit_tile_x, emit_tile_y, emit_lin_value, emit_quad_value, emit_quad_gx, emit_quad_gy,
       emit_quad_q};
 
-  localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS);
+  localparam logic [RING:0] PARTS = (RING + 1)'(quadrille_pkg::HOMOGENEOUS_PARTS), ALL = (RING + 1)'(ENTRIES);
+  localparam logic [RING:0] TWICE = (ALL < 2 * PARTS) ? '0 : ALL - 2 * PARTS + 1;  // from so many on, no room for both
 
   logic [RING:0] write_q, complete_q, tail_q;  // next entry to write, first one that is not complete, first one in use
-  logic [RING:0] used, complete_next;
-  logic completes, in_parts;  // the entry that comes takes one for each part
+  logic [RING:0] tail_next, used, complete_next;  // used: in the next clock, without this one's push
+  logic in_parts, full_q, full_parts_q;  // the entry that comes takes PARTS; no room for one, for PARTS, a clock ahead
   logic [RING-1:0] write_index, fetch_index, load_index, tag_index, emit_index_q, word_index_q;
-  assign used = write_q - tail_q;
+  assign tail_next = head_valid_i ? head_ptr_i : stamps_empty_i ? stamp_ptr_i : tail_q;
+  assign used = write_q - tail_next;
   assign complete_next = complete_q + (words.complete_homogeneous ? PARTS : (RING + 1)'(1));
   assign in_parts = homogeneous_i && !end_i;
-  assign full_o = used > (in_parts ? (RING + 1)'(ENTRIES) - PARTS : (RING + 1)'(ENTRIES - 1));
-  assign completes = words.complete;
+  assign full_o = in_parts ? full_parts_q : full_q;
   assign stamp_present_o = fetch_ptr_i != complete_q;
   assign write_index = write_q[RING-1:0];
   assign entry_o = write_index;
@@ -83,11 +84,13 @@ module quadrille_tile_ring #(
       write_q <= '0;
       complete_q <= '0;
       tail_q <= '0;
+      {full_q, full_parts_q} <= '0;
     end else begin
       if (push_i) write_q <= write_q + (in_parts ? PARTS : (RING + 1)'(1));
-      if (completes) complete_q <= complete_next;
-      if (head_valid_i) tail_q <= head_ptr_i;
-      else if (stamps_empty_i) tail_q <= stamp_ptr_i;
+      if (words.complete) complete_q <= complete_next;
+      tail_q <= tail_next;
+      full_q <= push_i ? used >= (in_parts ? ALL - PARTS : ALL - 1) : used >= ALL;
+      full_parts_q <= push_i ? used >= (in_parts ? TWICE : ALL - PARTS) : used > ALL - PARTS;
     end
   end
 
@@ -155,17 +158,16 @@ module quadrille_tile_ring #(
 
 `ifndef SYNTHESIS
   logic value_valid_q;
-  logic [RING:0] value_ptr_q, value_age;  // of the entry whose values emission reads
-  assign value_age = write_q - value_ptr_q;
+  logic [RING:0] value_ptr_q;  // of the entry whose values emission reads
 
   always_ff @(posedge clk_i) begin
     value_valid_q <= rst_ni && emit_valid_i;
     value_ptr_q <= emit_ptr_i;
     if (rst_ni) begin
       `QUADRILLE_ASSERT(assert_push_has_room, !push_i || !full_o, "a tile pushed finds an entry")
-      `QUADRILLE_ASSERT(assert_used_range, used <= (RING + 1)'(ENTRIES), "no more entries are used than there are")
+      `QUADRILLE_ASSERT(assert_used_range, used <= ALL, "no more entries are used than there are")
       `QUADRILLE_ASSERT(assert_value_alive,
-          !value_valid_q || value_age <= (RING + 1)'(ENTRIES),
+          !value_valid_q || (RING + 1)'(write_q - value_ptr_q) <= ALL,
           "an entry read is not written over yet")
     end
   end

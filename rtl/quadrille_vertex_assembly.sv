@@ -5,10 +5,10 @@
 // came before, and one that comes with it.
 //
 // vertex_ready_o depends on registers and leave_i, not on vertex_valid_i. The quad's id, bases and depth codes are
-// those of v0. Beside the quad: whether all its W are ONE, W as significand numbers, and its least and greatest X
-// and Y, kept up with each beat; and the judgements of its vertices by quad_reject, range_empty and depth_interval.
-// Vertex i's field is at [i*width +: width] of each flat output; attributes are those of v1, v2, v3, for v0's are the
-// bases.
+// those of v0. A vertex's registers take the port's beat in each clock until it is accepted. Beside the quad: whether
+// all its W are ONE, W as significand numbers, least and greatest X and Y, kept up with each beat; judgements of its
+// vertices by quad_reject, range_empty and depth_interval. Vertex i's field is at [i*width +: width] of each flat
+// output; attributes are those of v1, v2, v3, for v0's are the bases.
 module quadrille_vertex_assembly #(
     localparam int S = quadrille_pkg::SIGNIFICAND_BITS, PE = quadrille_pkg::PORT_EXP_BITS, T = quadrille_pkg::T_BITS,
     localparam int E = quadrille_pkg::EXP_BITS, W = quadrille_pkg::W_BITS,
@@ -71,7 +71,7 @@ module quadrille_vertex_assembly #(
   assign first = count_q == 2'd0;
 
   always_ff @(posedge clk_i) begin
-    if (accept && first) begin
+    if (first && vertex_ready_o) begin
       id <= vertex.id;
       base_attr <= vertex.base_attr;
       base_depth <= vertex.base_depth;
@@ -101,11 +101,9 @@ module quadrille_vertex_assembly #(
   );
 
   // W as a significand number, a clock after its beat: exponent -FRAC..0, which fits the port's width.
-  logic w_neg;
   logic [W-1:0] w_magnitude_q;  // of the last vertex
-  assign w_neg = vertex.w[W-1];
 
-  always_ff @(posedge clk_i) if (accept) w_magnitude_q <= w_neg ? W'(0) - vertex.w : vertex.w;
+  always_ff @(posedge clk_i) if (accept) w_magnitude_q <= vertex.w[W-1] ? W'(0) - vertex.w : vertex.w;
 
   quadrille_fp_normalise #(.WIDTH(W), .REGISTERED(1'b0)) u_w (
       .clk_i, .active_i(1'b1), .magnitude_i(w_magnitude_q), .bias_i(E'(0) - E'(quadrille_pkg::FRAC)), .exp_o(w_exp),
@@ -122,11 +120,11 @@ module quadrille_vertex_assembly #(
 
   for (genvar g = 0; g < 4; g++) begin : gen_vertex
     always_ff @(posedge clk_i) begin
-      if (accept && count_q == g) begin
+      if (count_q == g && (g != 0 || vertex_ready_o)) begin
         x[g*T+:T] <= vertex.x;
         y[g*T+:T] <= vertex.y;
         w[g*W+:W] <= vertex.w;
-        w_negs[g] <= w_neg;
+        w_negs[g] <= vertex.w[W-1];
         k_exp[g*PE+:PE] <= vertex.k_exp;
         k_sig[g*S+:S] <= vertex.k_sig;
         z_neg[g] <= vertex.z_neg;
@@ -145,7 +143,7 @@ module quadrille_vertex_assembly #(
     end
 
     if (g != 0) begin : gen_attributes
-      always_ff @(posedge clk_i) if (accept && count_q == g) attr[(g-1)*ATTR+:ATTR] <= vertex.attr;
+      always_ff @(posedge clk_i) if (count_q == g) attr[(g-1)*ATTR+:ATTR] <= vertex.attr;
     end
   end
 endmodule

@@ -52,11 +52,11 @@ class Counts:
 
 # ---- gcov -----------------------------------------------------------------------------------------------------------------------------
 
-def add_gcov(counts, report, build, root):
+def add_gcov(counts, report, root):
     """A report of `gcov --json-format`. A line is compiled into many objects and, as a template, many times into one: its counts are summed.
     Branches of copies with equally many branches are the same branches; those that an exception takes are nobody's."""
     for file in report["files"]:
-        path = os.path.relpath(os.path.realpath(os.path.join(build, file["file"])), root)
+        path = os.path.relpath(os.path.realpath(os.path.join(report["current_working_directory"], file["file"])), root)
         if not judged(path):
             continue
         for line in file["lines"]:
@@ -365,7 +365,7 @@ def main():
     counts = Counts()
     root, build = os.path.realpath(ROOT), os.path.realpath(arguments.build)
     for one in run_gcov(build):
-        add_gcov(counts, one, build, root)
+        add_gcov(counts, one, root)
     simulators = Verilator(counts, root)
     for path in sorted(pathlib.Path(arguments.rtl_counts).glob("rtl-*")):  # part-*: of a process that was killed while it wrote
         simulators.add(path.read_text(encoding="utf-8"))

@@ -61,7 +61,7 @@ class Tree(unittest.TestCase):
         return path
 
     def gcov(self, name, lines):
-        coverage.add_gcov(self.counts, {"files": [{"file": name, "lines": lines}]}, self.build, self.root)
+        coverage.add_gcov(self.counts, {"current_working_directory": self.build, "files": [{"file": name, "lines": lines}]}, self.root)
 
     def verilate(self, *runs):
         """`runs`: points, or what is in the file."""
@@ -131,7 +131,7 @@ class Merging(Tree):
         subprocess.run(["g++", "--coverage", "-o", "program", "main.o", "a.o", "never.o"], cwd=self.build, check=True)
         subprocess.run(["./program"], cwd=self.build, check=True)
         for one in coverage.run_gcov(self.build):
-            coverage.add_gcov(self.counts, one, self.build, self.root)
+            coverage.add_gcov(self.counts, one, self.root)
         covered = {n: count > 0 for n, count in self.counts.files["model/a.cpp"]["lines"].items()}
         self.assertEqual(covered, {1: True, 2: True, 3: False, 4: True})
         self.assertEqual(set(self.counts.files["model/never.cpp"]["lines"].values()), {0})

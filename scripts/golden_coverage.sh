@@ -32,10 +32,12 @@ unreachable = {
     ("model/pixel/fragment_output.cpp", "shift >= 0 ? r.p << shift"): "2S - 2 = 34 exceeds the bits of either output format",
     ("model/pixel/fragment_output.cpp", "p.valid && !discard"): "a bubble of the pipeline is no vector",
     ("model/pixel/normalise.cpp", "c.config.notch_exact &&"): "a constant of the configuration",
-    ("model/front/quad_setup.cpp", "int quad_setup_steps"): "clocks, not values",
+    **{("model/front/quad_setup.cpp", piece): "clocks, not values" for piece in ("int quad_setup_steps", "separates")},
+    **{("model/pixel/weight_factors.cpp", piece): "plane_quads is off in the default configuration" for piece in (
+        "> areas(", "any_of(p.a", "behind_diagonal", "= c.format.one();", "auto area", "none{{}", "area(1)", "quad.plane ?")},
     ("model/port/snap.cpp", "a product with k is too large"): "k is below 2^96 and z at most 2^80; the port reaches 2^256",
     ("model/port/snap.cpp", "extent_.zero()"): "w = 0 here leaves x and y as given, which are not both 0",
-    ("model/port/snap.cpp", "as_many) ||"): "vertices of the suite have all attributes",
+    **{("model/port/snap.cpp", piece): "vertices of the suite have all attributes" for piece in ("as_many) ||", "return slot <")},
     ("model/port/snap.cpp", "quad_id_bits"): "ids belong to quads; the suite snaps vertices",
     ("model/port/snap.cpp", "SnapError(quad.id"): "as above",
     ("model/port/snap.cpp", "is_ordinary"): "a query of the test bench",
@@ -57,7 +59,7 @@ def reason_of(name, source):
 
 root, build, counts = os.getcwd(), os.path.realpath(sys.argv[1]), coverage.Counts()
 for report in coverage.run_gcov(build):
-    coverage.add_gcov(counts, report, build, root)
+    coverage.add_gcov(counts, report, root)
 sources = coverage.Sources(root)
 coverage.without_closing_lines(counts, sources)
 missing = branches = excused = lines = 0

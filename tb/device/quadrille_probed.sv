@@ -38,7 +38,7 @@ module quadrille_probed
   probe_tile_t tile;
 
   always_ff @(posedge clk_i) begin
-    probe_tile_valid_o <= rst_ni && u_quadrille.u_tiles.u_ring.completes;
+    probe_tile_valid_o <= rst_ni && u_quadrille.u_tiles.u_ring.words.complete;
     entry_q <= u_quadrille.u_tiles.u_ring.complete_q[RING_LOG2-1:0];
   end
 

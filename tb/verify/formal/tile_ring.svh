@@ -231,6 +231,7 @@
       assert (!emit_q2 || emit_lin_value == value_kept_q);
       // The registers are what the ports say.
       assert (write_q == pushed_q && complete_q == completed_q && tail_q == given_q);
+      assert (full_q == (occupied == ALL) && full_parts_q == (occupied > ALL - PARTS));
       // Invariants. The next entry begins behind this one's last.
       assert (occupied <= (RING + 1)'(ENTRIES) && complete_in_use <= occupied);
       assert (!live_q || (behind >= size && from_given < occupied && (!complete || past_complete >= size)));
