@@ -227,29 +227,6 @@ TEST_F(Cli, BadMeshesAndCameras) {
   EXPECT_EQ(run("render --mesh five.obj --png a.png --quiet").status, 0);
 }
 
-TEST_F(Cli, EmptyValuesAreRefused) {
-  for (const char* command : {"fragments --scene bowtie --size 32x32 --out - --pixel",
-                              "render --scene bowtie --size 32x32 --png a.png --scissor",
-                              "render --scene bowtie --size 32x32 --png a.png --znear",
-                              "sweep --scene bowtie --out s --objective", "explain --pixel 3,3 --scene"})
-    refuses(2, std::string(command) + " ''",
-            {"empty", std::string(command).substr(std::string(command).rfind(' ') + 1)});
-}
-
-TEST_F(Cli, OptionsOfAnotherInputAreRefused) {
-  refuses(2, "render --scene bowtie --count 5 --png a.png", {"--count needs --stress"});
-  refuses(2, "render --scene bowtie --strict --png a.png", {"--strict needs --mesh"});
-  refuses(2, "render --scene bowtie --merge-pairs --png a.png", {"--merge-pairs needs --mesh"});
-}
-
-TEST_F(Cli, ColoursOfVertices) {
-  write("coloured.obj", "v -1 -1 0 1 0 0\nv 1 -1 0 1 0 0\nv 1 1 0 1 0 0\nv -1 1 0 1 0 0\nf 1 2 3 4\n");
-  const std::string out = run("fragments --mesh coloured.obj --shade colour --size 16x16 --out -").out;
-  EXPECT_EQ(out.substr(0, out.find('\n')), "quad,x,y,front,flags,l0,l1,l2,l3,z,red,green,blue");
-  write("a.quads", good_quad);
-  refuses(2, "render --quads a.quads --shade colour --png a.png", {"# attributes: red green blue"});
-}
-
 TEST_F(Cli, MissingNormalsAreSaid) {
   write("a.quads", good_quad);
   refuses(2, "render --quads a.quads --shade normal --png a.png", {"no normal"});

@@ -120,4 +120,12 @@ TEST_F(MeshCli, QuadsWithNamesAreDrawnByThem) {
   refuses(2, "render --png a.png --shade normal --quads uv.quads", {"nx, ny, nz"});
 }
 
+TEST_F(MeshCli, ColoursOfVertices) {
+  write("coloured.obj", "v -1 -1 0 1 0 0\nv 1 -1 0 1 0 0\nv 1 1 0 1 0 0\nv -1 1 0 1 0 0\nf 1 2 3 4\n");
+  const std::string out = run("fragments --mesh coloured.obj --shade colour --size 16x16 --out -").out;
+  EXPECT_EQ(out.substr(0, out.find('\n')), "quad,x,y,front,flags,l0,l1,l2,l3,z,red,green,blue");
+  write("a.quads", "0 0 0 1  9 0 0 1  9 9 0 1  0 9 0 1\n");
+  refuses(2, "render --quads a.quads --shade colour --png a.png", {"# attributes: red green blue"});
+}
+
 }  // namespace

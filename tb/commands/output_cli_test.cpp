@@ -122,4 +122,19 @@ TEST_F(Cli, ArraysForNumpy) {
   refuses(2, "render --scene sphere --out e.csv", {"OpenEXR or NumPy arrays, not CSV", "e.exr"});
 }
 
+TEST_F(Cli, EmptyValuesAreRefused) {
+  for (const char* command : {"fragments --scene bowtie --size 32x32 --out - --pixel",
+                              "render --scene bowtie --size 32x32 --png a.png --scissor",
+                              "render --scene bowtie --size 32x32 --png a.png --znear",
+                              "sweep --scene bowtie --out s --objective", "explain --pixel 3,3 --scene"})
+    refuses(2, std::string(command) + " ''",
+            {"empty", std::string(command).substr(std::string(command).rfind(' ') + 1)});
+}
+
+TEST_F(Cli, OptionsOfAnotherInputAreRefused) {
+  refuses(2, "render --scene bowtie --count 5 --png a.png", {"--count needs --stress"});
+  refuses(2, "render --scene bowtie --strict --png a.png", {"--strict needs --mesh"});
+  refuses(2, "render --scene bowtie --merge-pairs --png a.png", {"--merge-pairs needs --mesh"});
+}
+
 }  // namespace
