@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace quadrille::explain {
@@ -310,6 +311,9 @@ TEST(Explain, JsonTextAndPage) {
   for (const char* part : {"Pixel (20, 20), quad 0: drawn", "1. ", "13. ", "A01", "exact: "})
     EXPECT_TRUE(says(text, part)) << part;
   EXPECT_GT(to_text(all[0], true).size(), text.size());
+  std::istringstream lines(to_text(all[0], true) + summary(all));
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LE(std::ranges::count_if(line, [](char c) { return (c & 0xc0) != 0x80; }), 100) << line;
   DrawState bare = state64();
   bare.attributes = 0;
   EXPECT_TRUE(says(to_text(of(box(10, 10, 30, 30), 12, 15, bare)), "(1 number is not needed at this pixel, and 0)"));

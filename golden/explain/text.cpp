@@ -9,10 +9,10 @@
 namespace quadrille::explain {
 
 const char* const legend =
-    "exact: the same formula in 113 bits on the snapped corners. ulp: the error, value - exact, in last stored "
-    "places.\n"
-    "bound: |error| as a part of what is proved or specified; 'none' means no error is possible, a blank that no\n"
-    "bound is known. unsnapped: exact, of the corners as given, before they became integers.";
+    "exact: the same formula in 113 bits on the snapped corners. ulp: the error, value - exact, in last\n"
+    "stored places. bound: |error| as a part of what is proved or specified; 'none' means no error is\n"
+    "possible, a blank that no bound is known. unsnapped: exact, of the corners as given, before they\n"
+    "became integers.";
 
 namespace {
 
@@ -193,8 +193,7 @@ std::string to_text(const Explanation& e, bool whole) {
   Table edges;
   edges.add({"edge function", "at the pixel", "centre is", "counts as"});
   for (const Edge& edge : e.edges)
-    edges.add({edge.name, real_text(edge.value) + " px²",
-               format("%.4g px", std::fabs(edge.distance)) + " from the line",
+    edges.add({edge.name, real_text(edge.value) + " px²", format("%.4g px", std::fabs(edge.distance)) + " from it",
                std::string(edge.sign > 0   ? "positive"
                            : edge.sign < 0 ? "negative"
                                            : "neither") +
@@ -236,7 +235,7 @@ std::string summary(std::span<const Explanation> all) {
       if (e.outcome == outcome && (outcome != Outcome::outside || &e == nearest)) {
         if (outcome == Outcome::left_out && e.reject == QuadReject::empty) continue;
         if (++shown > 3) break;
-        out += "    quad " + std::to_string(e.quad) + near_text(e, &e == nearest) + e.why + "\n";
+        out += wrapped("    quad " + std::to_string(e.quad) + near_text(e, &e == nearest) + e.why, 6);
       }
   }
   return out;
