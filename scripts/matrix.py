@@ -95,29 +95,27 @@ def main():
 
 def run_row(name, row, resume):
     os.makedirs(OUT, exist_ok=True)
-    start = time.monotonic()
     path = os.path.join(OUT, f"{name}.json")
     result = {"versions": [], "done": [], "failed": None, "commits": [], "minutes": 0}
     if resume:
         result |= saved(path) | {"failed": None}
-    before = result["minutes"]
 
     def save():
         write_text(path, json.dumps(result, indent=1) + "\n")
-    if commit() not in result["commits"]:
-        result["commits"].append(commit())
-    with open(os.path.join(OUT, f"{name}.log"), "a" if before else "w", encoding="utf-8") as log:
+    with open(os.path.join(OUT, f"{name}.log"), "a" if result["done"] else "w", encoding="utf-8") as log:
         place = Chroot(name, row.release, log, resume) if row.release else Here(row.packages, log)
         with place:
             save()  # and after each: a row that is interrupted has what it came to
             for command in [c for c in row.commands if c not in result["done"]]:
                 print(f"{name}: {command}", flush=True)
+                start = time.monotonic()
                 if place.run(command):
                     result["done"].append(command)
+                    result["minutes"] += round((time.monotonic() - start) / 60)
+                    result["commits"] += [] if commit() in result["commits"] else [commit()]
                 else:
                     result["failed"] = command
                 result["versions"] = [f"{tool} {version(place.output(command))}" for tool, command in row.tools.items()]
-                result["minutes"] = before + round((time.monotonic() - start) / 60)
                 save()
                 if result["failed"]:
                     break
@@ -215,7 +213,7 @@ def outcome(row, result):
 def page():
     lines = ["# Systems, compilers and tools tried", "",
              "`scripts/matrix.py --write` makes this table; `--list` prints each row's commands, and a row can be run alone;",
-             "`--resume` goes on after what passed.", "", "<!-- matrix.py -->",
+             "`--resume` goes on after what passed. Minutes and commits are of the commands that passed.", "", "<!-- matrix.py -->",
              "| row | versions | result | minutes | commit |", "|---|---|---|---|---|"]
     for name, row in ROWS.items():
         r = saved(os.path.join(OUT, f"{name}.json"))
