@@ -120,6 +120,14 @@ TEST_F(MeshCli, QuadsWithNamesAreDrawnByThem) {
   refuses(2, "render --png a.png --shade normal --quads uv.quads", {"nx, ny, nz"});
 }
 
+TEST_F(MeshCli, WhatWouldHoldAnAttribute) {
+  write("far.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 500 0\nf 1/1 2/1 3/1 4/1\n");
+  const std::string command = "fragments --mesh far.obj --shade uv --size 16x16 --out -";
+  refuses(2, command, {"attribute 0 = 500 does not fit attribute_int_bits = 7; 9 would hold it"});
+  EXPECT_EQ(run(command + " --set attribute_int_bits=9").status, 0);
+  refuses(2, command + " --set attribute_int_bits=8", {"9 would hold it"});
+}
+
 TEST_F(MeshCli, ColoursOfVertices) {
   write("coloured.obj", "v -1 -1 0 1 0 0\nv 1 -1 0 1 0 0\nv 1 1 0 1 0 0\nv -1 1 0 1 0 0\nf 1 2 3 4\n");
   const std::string out = run("fragments --mesh coloured.obj --shade colour --size 16x16 --out -").out;
