@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -17,12 +16,16 @@ namespace {
 
 constexpr double largest_magnitude = 0x1p80;
 
-std::string describe(const WindowVertex& v) {
+std::string digits(double value) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
-  out << "(" << v.x << ", " << v.y << ", " << v.z << ", " << v.w << ")";
+  out << value;
   return out.str();
+}
+
+std::string describe(const WindowVertex& v) {
+  return "(" + digits(v.x) + ", " + digits(v.y) + ", " + digits(v.z) + ", " + digits(v.w) + ")";
 }
 
 /// What is wrong with a vertex, without knowing which one it is; snap_quad adds the place.
@@ -43,16 +46,10 @@ void check_vertex(const WindowVertex& v) {
   if (extent < 1 / largest_magnitude) throw Rejected{"x, y and w are all smaller than 2^-80"};
 }
 
-std::string short_digits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
-}
-
 void check_attribute(double value, std::size_t slot, const Config& config) {
   if (!std::isfinite(value)) throw Rejected{"attribute " + std::to_string(slot) + " is NaN or infinite"};
   if (!(std::fabs(value) < std::ldexp(1.0, config.attribute_int_bits)))
-    throw Rejected{"attribute " + std::to_string(slot) + " = " + short_digits(value) +
+    throw Rejected{"attribute " + std::to_string(slot) + " = " + digits(value) +
                    " does not fit attribute_int_bits = " + std::to_string(config.attribute_int_bits) + "; " +
                    std::to_string(std::ilogb(value) + 1) + " would hold it"};
 }

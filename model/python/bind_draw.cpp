@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace quadrille::python {
@@ -31,13 +30,7 @@ std::unique_ptr<tb::Engine> engine_of(const Quads& quads, const std::optional<st
     return settings.kind == EngineKind::model ? make_model_engine(settings) : make_reference_engine(settings);
   const std::string& method = *given_method;
   const bool has_object_space = quads.corners.size() == quads.quads.size();
-  bool needs_object_space = false;
-  try {
-    needs_object_space = golden::methods::make_method(method)->needs_object_space();
-  } catch (const std::invalid_argument& error) {
-    throw tb::UsageError(error.what());
-  }
-  if (!has_object_space && needs_object_space)
+  if (!has_object_space && named([&] { return golden::methods::make_method(method); })->needs_object_space())
     throw tb::UsageError("method " + method + " needs corners in object space, which " + quads.name + " does not have");
   std::vector<golden::methods::Quad> given(quads.quads.size());
   for (std::size_t i = 0; i < given.size(); ++i) {

@@ -6,7 +6,6 @@
 #include "golden/scenes/stress.hpp"
 #include "model/python/binding.hpp"
 #include "tb/support/choices.hpp"
-#include "tb/support/errors.hpp"
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
@@ -60,15 +59,6 @@ Quads from_arrays(const Doubles& vertices, const Doubles& values, std::vector<st
     }
   }
   return result;
-}
-
-/// What `make` gives; a name that it does not know is a UsageError.
-auto named(const auto& make) {
-  try {
-    return make();
-  } catch (const std::invalid_argument& error) {
-    throw tb::UsageError(error.what());
-  }
 }
 
 Quads scene(const std::string& name, int width, int height, const std::string& attributes) {

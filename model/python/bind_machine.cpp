@@ -29,11 +29,10 @@ struct Machine {
   }
 
   /// For one thread at a time: run() gives up the interpreter's lock.
-  const quadrille_clocked& inner() const {
+  quadrille_clocked& inner() {
     api::require(!running_, QUADRILLE_BUSY, "another thread is in run() of this machine");
     return inner_;
   }
-  quadrille_clocked& inner() { return const_cast<quadrille_clocked&>(std::as_const(*this).inner()); }
 
   void push(const Quads& quads) {
     api::require(quads.attributes.size() == names.size(), QUADRILLE_BAD_ARGUMENT,
@@ -71,7 +70,7 @@ struct Machine {
     return clocks - before;
   }
 
-  FragmentRecords records() const { return {inner().config, {inner().state.depth, false, true, names}}; }
+  FragmentRecords records() { return {inner().config, {inner().state.depth, false, true, names}}; }
 
   nb::tuple take() {
     FragmentRecords taken = records();
@@ -85,14 +84,14 @@ struct Machine {
     return array_of(std::move(taken));
   }
 
-  nb::tuple on_offer() const {
+  nb::tuple on_offer() {
     FragmentRecords offered = records();
     if (const ClockedOutputs now = inner().model.comb(); now.fragment_valid)
       now.for_each_fragment([&](const Fragment& fragment) { offered.add(fragment); });
     return array_of(std::move(offered));
   }
 
-  std::vector<std::string> words() const {
+  std::vector<std::string> words() {
     std::vector<std::string> words;
     if (const ClockedOutputs now = inner().model.comb(); now.fragment_valid)
       now.for_each_fragment(
@@ -100,7 +99,7 @@ struct Machine {
     return words;
   }
 
-  nb::dict counters() const {
+  nb::dict counters() {
     nb::dict result;
     const PerformanceCounters now = inner().model.counters();
     for (std::size_t i = 0; i < counter_count; ++i) result[std::string(counter_info[i].name).c_str()] = now.value[i];
@@ -142,17 +141,17 @@ void bind_machine(nb::module_& m) {
       .def("words", &Machine::words)
       .def("counters", &Machine::counters)
       .def_ro("clocks", &Machine::clocks)
-      .def_prop_ro("waiting", [](const Machine& self) { return self.inner().waiting.size(); })
-      .def_prop_ro("queued", [](const Machine& self) { return 4 * self.inner().queue.size() - self.inner().beat; })
-      .def_prop_ro("idle", [](const Machine& self) { return self.inner().idle(); })
-      .def_prop_ro("vertex_ready", [](const Machine& self) { return self.inner().model.comb().vertex_ready; })
-      .def_prop_ro("fragment_valid", [](const Machine& self) { return self.inner().model.comb().fragment_valid; })
+      .def_prop_ro("waiting", [](Machine& self) { return self.inner().waiting.size(); })
+      .def_prop_ro("queued", [](Machine& self) { return 4 * self.inner().queue.size() - self.inner().beat; })
+      .def_prop_ro("idle", [](Machine& self) { return self.inner().idle(); })
+      .def_prop_ro("vertex_ready", [](Machine& self) { return self.inner().model.comb().vertex_ready; })
+      .def_prop_ro("fragment_valid", [](Machine& self) { return self.inner().model.comb().fragment_valid; })
       .def_prop_ro("fragment_mask",
-                   [](const Machine& self) {
+                   [](Machine& self) {
                      const ClockedOutputs now = self.inner().model.comb();
                      return now.fragment_valid ? now.fragment_mask() : 0u;
                    })
-      .def_prop_ro("busy", [](const Machine& self) { return self.inner().model.comb().busy; });
+      .def_prop_ro("busy", [](Machine& self) { return self.inner().model.comb().busy; });
 }
 
 }  // namespace quadrille::python

@@ -4,12 +4,14 @@
 #include "golden/scenes/mesh.hpp"
 #include "model/port/records.hpp"
 #include "model/python/fragment_records.hpp"
+#include "tb/support/errors.hpp"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
 #include <array>
 #include <chrono>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,15 @@ void check_names(const std::vector<std::string>& names);
 
 /// A fragment at the port: the hexadecimal digits of fragment_t.
 std::string fragment_word(const Fragment& fragment, const Config& config);
+
+/// What `make` gives; a name that it does not know is a UsageError.
+auto named(const auto& make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& error) {
+    throw tb::UsageError(error.what());
+  }
+}
 
 /// For work without the interpreter's lock: lets Ctrl-C end it. Asks at most ten times a second.
 class Interruptible {

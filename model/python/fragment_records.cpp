@@ -41,11 +41,11 @@ FragmentRecords::FragmentRecords(const Config& config, const RecordContents& con
              {"y", "u2", y_at},
              {"front", "?", front_at},
              {"flags", "u2", flags_at}};
-  std::vector<RecordField> code_fields;
+  // Codes first: fields stand in the order of their offsets, as numpy.save wants them.
   std::size_t code_at = first_free;
   const auto add_code = [&](const std::string& name, const char* format, std::size_t bytes) {
     code_at = (code_at + bytes - 1) / bytes * bytes;
-    code_fields.push_back({name + "_code", format, code_at});
+    fields_.push_back({name + "_code", format, code_at});
     code_at += bytes;
     return code_at - bytes;
   };
@@ -59,8 +59,6 @@ FragmentRecords::FragmentRecords(const Config& config, const RecordContents& con
   bytes_ = (code_at + 7) / 8 * 8;
   if (contents.depth) depth_ = add_field("depth", "f8", 8);
   for (std::size_t i = 0; i < columns.size(); ++i) values_[i].real = add_field(columns[i].first, "f8", 8);
-  fields_.insert(fields_.end(), code_fields.begin(), code_fields.end());
-  std::ranges::sort(fields_, {}, &RecordField::offset);  // as numpy.save wants them
 }
 
 std::size_t FragmentRecords::add_field(const std::string& name, const std::string& format, std::size_t bytes) {

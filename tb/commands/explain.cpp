@@ -102,8 +102,9 @@ int explain_pixel(const ExplainOptions& options, const Invocation& invocation) {
     json["ok"] = same && bounded;
     json["quads"] = quads.size();
     json["explanations"] = nlohmann::ordered_json::array();
+    const Explanation* const nearest = explain::nearest_outside(all);
     for (const Explanation& e : all)
-      if (shown(e) || e.outcome != explain::Outcome::outside || &e == explain::nearest_outside(all))
+      if (shown(e) || e.outcome != explain::Outcome::outside || &e == nearest)
         json["explanations"].push_back(nlohmann::ordered_json::parse(explain::to_json(e)));
     golden::save_json(options.common.json, json);
   }

@@ -56,9 +56,12 @@ class Machine:
         accepted. reset empties the queue. clear_hidden forgets hidden tiles (RuntimeError while busy). flush discards a
         quad of which some vertices were taken and not all.
         """
-        inputs = {"vertex_valid": vertex_valid, "fragment_ready": fragment_ready, "reset": reset}
-        inputs |= {"clear_hidden": clear_hidden, "flush": flush}
-        return self._machine.clock(**{name: flag(name, value) for name, value in inputs.items()})
+        try:
+            return self._machine.clock(vertex_valid, fragment_ready, reset, clear_hidden, flush)
+        except TypeError:  # NumPy's, or none at all: asked for here alone, for this runs in every clock
+            inputs = {"vertex_valid": vertex_valid, "fragment_ready": fragment_ready, "reset": reset}
+            inputs |= {"clear_hidden": clear_hidden, "flush": flush}
+            return self._machine.clock(**{name: flag(name, value) for name, value in inputs.items()})
 
     def run(self, most_clocks: int = 2**62) -> int:
         """Clocks without gap or stall until idle, or so many; how many it were."""
